@@ -4,12 +4,12 @@
 #include <utility>
 #include <vector>
 
-#include <gale/relations/face_reader.hpp>
 #include <gale/relations/kernels/segment_kernel.hpp>
 #include <gale/relations/preconditioning.hpp>
 #include <gale/runtime/batches/host_worker.hpp>
 #include <gale/runtime/defaults.hpp>
 #include <gale/runtime/leaders/leader.hpp>
+#include <gale/runtime/segment_consumer.hpp>
 #include <gale/runtime/ways.hpp>
 
 namespace gale::detail {
@@ -129,36 +129,23 @@ class SweepReader {
 };
 
 /// A consumer that asks leaders for what it misses, and waits.
-class RequestingConsumer : public Consumer {
+class RequestingConsumer : public SegmentConsumer {
  public:
   RequestingConsumer(std::shared_ptr<Leaders> leaders, std::shared_ptr<ConsumerLog> log)
-      : leaders_(std::move(leaders)),
-        log_(std::move(log)),
-        faces_(leaders_->mesh(), leaders_->relations() & face_relations) {}
-  ~RequestingConsumer() override { log_->add(statistics_); }
+      : SegmentConsumer(leaders->mesh(), leaders->relations(), std::move(log)), leaders_(std::move(leaders)) {}
 
- protected:
-  SegmentRows load(RelationSet one, Id simplex) override {
-    const Mesh& mesh = leaders_->mesh();
-    const int dimension = row_dimension(one);
-    require_preconditioned(leaders_->relations(), one);
-    require_simplex(mesh, dimension, simplex);
-    if (face_relations.contains(one)) return faces_.row(members_of(one).front(), simplex);
+ private:
+  SegmentRows rows_of(RelationSet one, Id segment) override {
     Leader& leader = leaders_->of(one);
-    const Id segment = mesh.segment_of(dimension, simplex);
     Lease& lease = leases_[all_relations.contains(one) ? static_cast<int>(members_of(one).front()) : relation_count];
     lease.release();
     lease = leader.acquire(segment, false, statistics_);
-    SegmentRows rows(segment, mesh.intervals_of(segment));
+    SegmentRows rows(segment, mesh_.intervals_of(segment));
     leader.add_rows(lease, rows);
     return rows;
   }
 
- private:
   const std::shared_ptr<Leaders> leaders_;
-  const std::shared_ptr<ConsumerLog> log_;
-  FaceReader faces_;
-  ConsumerStatistics statistics_;
   Lease leases_[relation_count + 1];  ///< pins on the block read last in each relation; the last is that of links
 };
 
