@@ -352,15 +352,8 @@ Mesh DistributedMesh::Sharing::make(const GridLayers& part, const PartitionOptio
   return *mesh;
 }
 
-DistributedMesh::Shared DistributedMesh::shared(const Communicator& ranks, const GridLayers& part,
-                                                const PartitionOptions& options) {
-  const auto sharing = std::make_shared<Sharing>(ranks);
-  const Mesh mesh = sharing->make(part, options, sharing);
-  return {mesh, sharing};
-}
-
-template <class Index>
-DistributedMesh::Shared DistributedMesh::shared(const Communicator& ranks, const MeshPart<Index>& part,
+template <class Part>
+DistributedMesh::Shared DistributedMesh::shared(const Communicator& ranks, const Part& part,
                                                 const PartitionOptions& options) {
   const auto sharing = std::make_shared<Sharing>(ranks);
   const Mesh mesh = sharing->make(part, options, sharing);
@@ -373,11 +366,12 @@ const Array<const int, HostMemory>& DistributedMesh::owners() const { return sha
 const Points<double, HostMemory>& DistributedMesh::points() const { return sharing_->points.get(); }
 const CellRows<Id>& DistributedMesh::corners() const { return sharing_->corners; }
 
-#define GALE_INSTANTIATE(Index)                                                                                     \
-  template GALE_EXPORT DistributedMesh::Shared DistributedMesh::shared(const Communicator&, const MeshPart<Index>&, \
+#define GALE_INSTANTIATE(Part)                                                                           \
+  template GALE_EXPORT DistributedMesh::Shared DistributedMesh::shared(const Communicator&, const Part&, \
                                                                        const PartitionOptions&)
-GALE_INSTANTIATE(std::int32_t);
-GALE_INSTANTIATE(std::int64_t);
+GALE_INSTANTIATE(GridLayers);
+GALE_INSTANTIATE(MeshPart<std::int32_t>);
+GALE_INSTANTIATE(MeshPart<std::int64_t>);
 #undef GALE_INSTANTIATE
 
 }  // namespace gale
