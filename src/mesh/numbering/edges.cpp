@@ -72,8 +72,8 @@ MiddleStars<MemoryOf<Space>> find_middle_stars(const Space& space, const Simplic
 }
 
 template <class Space>
-Csr<Id, MemoryOf<Space>, Id> edges_by_lanes(const Space& space, const Simplices<MemoryOf<Space>>& simplices,
-                                            const MiddleStars<MemoryOf<Space>>& stars) {
+void enumerate_edges(const Space& space, const Simplices<MemoryOf<Space>>& simplices,
+                     const MiddleStars<MemoryOf<Space>>& stars, SimplexTables& tables) {
   using Memory = MemoryOf<Space>;
   const Offset vertices = simplices.cell_begin.extent(0) - 1;
   const HigherNeighbours<Memory> candidates(simplices, stars);
@@ -98,13 +98,6 @@ Csr<Id, MemoryOf<Space>, Id> edges_by_lanes(const Space& space, const Simplices<
         for (Id i = 0; i < few.size(); ++i) ends.entries(ends.offsets(v) + i) = few[i];
       });
   many.write(ends.offsets, ends.entries);
-  return ends;
-}
-
-template <class Space>
-void enumerate_edges(const Space& space, const Simplices<MemoryOf<Space>>& simplices,
-                     const MiddleStars<MemoryOf<Space>>& stars, SimplexTables& tables) {
-  const auto ends = edges_by_lanes(space, simplices, stars);
   const auto low = row_of_entries(space, "GALE::edge_low", ends.offsets, ends.entries.extent(0));
   tables.edge_begin = ends.offsets;
   tables.edge_low = low;
@@ -152,8 +145,6 @@ Id longest_row(const Space& space, const Borrowed<Id, MemoryOf<Space>>& begin) {
 
 #define GALE_INSTANTIATE(Space)                                                                                       \
   template MiddleStars<MemoryOf<Space>> find_middle_stars(const Space&, const Simplices<MemoryOf<Space>>&);           \
-  template Csr<Id, MemoryOf<Space>, Id> edges_by_lanes(const Space&, const Simplices<MemoryOf<Space>>&,               \
-                                                       const MiddleStars<MemoryOf<Space>>&);                          \
   template void enumerate_edges(const Space&, const Simplices<MemoryOf<Space>>&, const MiddleStars<MemoryOf<Space>>&, \
                                 SimplexTables&);                                                                      \
   template void sort_edges_by_higher(const Space&, const Simplices<MemoryOf<Space>>&, SimplexTables&);                \

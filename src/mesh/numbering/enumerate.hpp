@@ -32,14 +32,8 @@ MiddleStars<MemoryOf<Space>> find_middle_stars(const Space& space, const Simplic
 void enumerate_by_segments(const EncodedMesh<HostMemory>& mesh, const Borrowed<Id, HostMemory>& cell_begin,
                            bool triangles, SimplexTables& tables);
 
-/// The higher end of each edge, by the lower one, as a device finds them: lanes count those of a vertex in memory of
-/// their own and find them again to write them; where they are too many, they are sorted. `simplices` has the
-/// cells.
-template <class Space>
-Csr<Id, MemoryOf<Space>, Id> edges_by_lanes(const Space& space, const Simplices<MemoryOf<Space>>& simplices,
-                                            const MiddleStars<MemoryOf<Space>>& stars);
-
-/// Makes edge_begin, edge_low and edge_high as a device does. `simplices` has the cells.
+/// Makes edge_begin, edge_low and edge_high as a device does: lanes count the higher ends of a vertex's edges in memory
+/// of their own and find them again to write them; where they are too many, they are sorted. `simplices` has the cells.
 template <class Space>
 void enumerate_edges(const Space& space, const Simplices<MemoryOf<Space>>& simplices,
                      const MiddleStars<MemoryOf<Space>>& stars, SimplexTables& tables);
