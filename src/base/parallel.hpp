@@ -48,8 +48,10 @@ void for_parts(const char* label, Offset n, int parts, const Body& body) {
 /// that what the body counts in stays in registers.
 template <class Body>
 __attribute__((always_inline)) inline void for_range(Offset first, Offset last, const Body& body) {
+  constexpr Offset at_once = 1024;
   for (Offset i = first; i < last;) {
-    for (const Offset end = piece_end(i, last); i < end; ++i) body(i);
+    stop_if_asked();
+    for (const Offset end = std::min(i + at_once, last); i < end; ++i) body(i);
   }
 }
 

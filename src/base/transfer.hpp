@@ -60,13 +60,6 @@ GALE_EXPORT void write_to_device(void* device, std::size_t bytes,
 /// Takes the pinned memory of these for so many threads, which else the first copy does.
 GALE_EXPORT void prepare_copies(int threads);
 
-namespace detail {
-
-/// What a copy is called: as its original, which has no name if it is a caller's.
-inline std::string copy_label(const std::string& label) { return label.empty() ? "GALE::copy" : label; }
-
-}  // namespace detail
-
 /// The contents of a View in `Memory`, the host's or the workers': the View itself if they can be read there already,
 /// else a copy.
 template <class Memory, class T, class... Properties>
@@ -76,7 +69,8 @@ auto in_memory(const Kokkos::View<T, Properties...>& view) {
   if constexpr (is_device_memory<typename Given::memory_space> == is_device_memory<Memory>) {
     return There(view);
   } else {
-    const auto copy = allocate<typename There::non_const_type>(detail::copy_label(view.label()), view.extent(0));
+    const std::string label = view.label();  // a caller's View may have none
+    const auto copy = allocate<typename There::non_const_type>(label.empty() ? "GALE::copy" : label, view.extent(0));
     constexpr auto copy_bytes = is_device_memory<Memory> ? copy_to_device : copy_from_device;
     copy_bytes(copy.data(), view.data(), view.size() * sizeof(typename Given::value_type));
     return There(copy);
