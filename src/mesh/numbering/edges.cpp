@@ -28,19 +28,14 @@ struct MiddleVertices {
 template <class Memory>
 struct HigherNeighbours {
   Simplices<Memory> simplices;
-  Borrowed<Offset, Memory> middle_begin;
-  Borrowed<Id, Memory> middle;
-
-  HigherNeighbours(const Simplices<Memory>& all, const MiddleStars<Memory>& stars)
-      : simplices(all), middle_begin(stars.offsets), middle(stars.entries) {}
+  MiddleStars<Memory> stars;
 
   template <class Visit>
   KOKKOS_FUNCTION void operator()(Id vertex, const Visit& visit) const {
     for (Id t = simplices.cell_begin(vertex); t < simplices.cell_begin(vertex + 1); ++t) {
       for (int corner = 1; corner <= simplices.dimension; ++corner) visit(simplices.cells(t, corner));
     }
-    for (Offset i = middle_begin(vertex); i < middle_begin(vertex + 1); ++i) {
-      const Id t = middle(i);
+    for (const Id t : stars.row(vertex)) {
       if (simplices.cells(t, 1) == vertex) visit(simplices.cells(t, 2));
       visit(simplices.cells(t, 3));
     }
@@ -76,7 +71,7 @@ void enumerate_edges(const Space& space, const Simplices<MemoryOf<Space>>& simpl
                      const MiddleStars<MemoryOf<Space>>& stars, SimplexTables& tables) {
   using Memory = MemoryOf<Space>;
   const Offset vertices = simplices.cell_begin.extent(0) - 1;
-  const HigherNeighbours<Memory> candidates(simplices, stars);
+  const HigherNeighbours<Memory> candidates{simplices, stars};
   const auto count = allocate<Array<Id, Memory>>("GALE::edge_begin", vertices + 1);
   parallel_for(
       "GALE::count_edges", space, vertices, KOKKOS_LAMBDA(Offset v) {

@@ -32,8 +32,8 @@ class UpperLink {
       joined_[b] |= bit(c) | bit(d);
       joined_[c] |= bit(d);
     }
-    for (Offset i = stars.offsets(vertex); i < stars.offsets(vertex + 1); ++i) {
-      const Quad quad = simplices.cell(stars.entries(i));
+    for (const Id t : stars.row(vertex)) {
+      const Quad quad = simplices.cell(t);
       if (quad.b != vertex) continue;
       const Id c = place_of(quad.c, 0);
       joined_[c] |= bit(place_of(quad.d, c));
