@@ -234,8 +234,7 @@ std::vector<Id> octree_leaves(const Space& space, const Array<std::uint64_t, Mem
   parallel_for(
       "GALE::octree_leaves", space, count,
       KOKKOS_LAMBDA(Offset i) { leaf_of(i) = begins_leaf(codes, static_cast<Id>(i), limit) ? 1 : 0; });
-  const Id leaves = exclusive_scan(
-      "GALE::count_leaves", space, count, leaf_of, leaf_of);
+  const Id leaves = exclusive_scan("GALE::count_leaves", space, count, leaf_of, leaf_of);
   const auto begin = allocate<Ids>("GALE::leaf_begin", leaves);
   parallel_for(
       "GALE::leaf_begin", space, count, KOKKOS_LAMBDA(Offset i) {

@@ -92,8 +92,8 @@ PlacesOfAll sums_before(const Ranks& ranks, const Array<const GlobalId, HostMemo
         return IdCount{ids(i), counts(i)};
       },
       [&](const auto& asked, const auto& answers) {
-        const auto all = tabulated<GlobalId>("GALE::received_ids", asked.count(),
-                                             [&](Offset i) { return asked.entries(i).id; });
+        const auto all =
+            tabulated<GlobalId>("GALE::received_ids", asked.count(), [&](Offset i) { return asked.entries(i).id; });
         const auto by_id = distinct_ids(all).places;
         for (std::size_t i = 0; i < by_id.extent(0); ++i) {
           answers(by_id(i)) = here;
