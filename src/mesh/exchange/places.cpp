@@ -2,6 +2,7 @@
 #include <utility>
 #include <vector>
 
+#include <gale/base/ordered.hpp>
 #include <gale/base/sort.hpp>
 #include <gale/mesh/exchange/home_table.hpp>
 #include <gale/mesh/exchange/messages.hpp>
@@ -41,12 +42,7 @@ void find_places(const Array<SimplexKey, HostMemory>& keys, const std::vector<Si
       stop_if_asked_at(i);
       const SimplexKey& key = keys(i);
       if (i == begin || key < keys(i - 1)) at = distinct.begin();
-      auto last = at;  // the key is in ever longer steps from where the one before was
-      for (Offset step = 1; last != distinct.end() && *last < key; step *= 2) {
-        at = last;
-        last += std::min(step, distinct.end() - last);
-      }
-      at = std::lower_bound(at, last, key);
+      at = gallop(at, distinct.end(), [&](const auto& place) { return *place < key; });
       places(i) = at - distinct.begin();
     }
   });
