@@ -28,13 +28,6 @@ struct CountMembers {
   }
 };
 
-template <class Indices>
-struct MemberCount {
-  Indices counts;
-
-  KOKKOS_FUNCTION typename Indices::value_type operator()(Offset key) const { return counts(key); }
-};
-
 template <class Indices, class Members, class VisitKeys>
 struct FillGroups {
   VisitKeys visit_keys;
@@ -60,10 +53,9 @@ Csr<Id, HostMemory, Index> group_by_parts(const std::string& label, Offset items
   const auto for_keys = [&](const char* step, const auto& visit) {
     for_parts((label + step).c_str(), items, parts, [&](int part, Offset first, Offset last) {
       Index* const mine = next_of(part);
-      for (Offset item = first; item < last;) {
-        for (const Offset end = piece_end(item, last); item < end; ++item)
-          visit_keys(static_cast<Id>(item), [&](Id key) { visit(mine[key], static_cast<Id>(item)); });
-      }
+      for_range(first, last, [&](Offset item) {
+        visit_keys(static_cast<Id>(item), [&](Id key) { visit(mine[key], static_cast<Id>(item)); });
+      });
     });
   };
   fill((label + "_clear").c_str(), space, next, Index(0));
@@ -116,7 +108,7 @@ CountedGroups<Index, typename Space::memory_space> count_groups(const std::strin
   Kokkos::deep_copy(all, Index(0));
   const Indices next = Kokkos::subview(all, std::make_pair(Offset(1), keys + 2));
   parallel_for((label + "_count").c_str(), space, items, detail::CountMembers<Indices, VisitKeys>{visit_keys, next});
-  const Index total = exclusive_scan((label + "_scan").c_str(), space, keys, next, detail::MemberCount<Indices>{next});
+  const Index total = exclusive_scan((label + "_scan").c_str(), space, keys, next, next);
   return {Kokkos::subview(all, std::make_pair(Offset(0), keys + 1)), next, total};
 }
 

@@ -35,6 +35,21 @@ class Once {
   std::atomic<bool> done_{false};
 };
 
+/// A value that the first caller of get() makes, on any thread. Other threads wait for it.
+template <class T>
+class OnceMade {
+ public:
+  template <class Make>
+  const T& get(const Make& make) const {
+    once_([&] { value_ = make(); });
+    return value_;
+  }
+
+ private:
+  mutable Once once_;
+  mutable T value_{};
+};
+
 /// A Mirrored where the workers' memory is the host's: the array.
 template <class T>
 class OneArray {

@@ -26,6 +26,17 @@ KOKKOS_FORCEINLINE_FUNCTION Place bisect(Place begin, Place end, const IsBefore&
   return begin;
 }
 
+/// What bisect finds, mostly near `begin`: in ever longer steps from there. On the host.
+template <class Place, class IsBefore>
+Place gallop(Place begin, Place end, const IsBefore& is_before) {
+  Place last = begin;
+  for (Offset step = 1; last != end && is_before(last); step *= 2) {
+    begin = last + 1;
+    last = begin + std::min<Offset>(step, end - begin);
+  }
+  return bisect(begin, last, is_before);
+}
+
 /// A few entries, such as a simplex's vertices, ascending: without branches, which nobody could foretell. On the host.
 template <class T, std::size_t N>
 std::array<T, N> ascending(std::array<T, N> few) {

@@ -1,11 +1,15 @@
 #pragma once
 
 #include <algorithm>
+#include <numeric>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <gale/base/kokkos.hpp>
 #include <gale/base/memory.hpp>
+#include <gale/base/team.hpp>
 #include <gale/base/threads.hpp>
 #include <gale/base/types.hpp>
 
@@ -40,6 +44,50 @@ void for_parts(const char* label, Offset n, int parts, const Body& body) {
   on_threads(parts, [&](int part) { body(part, part_begin(n, parts, part), part_begin(n, parts, part + 1)); });
 }
 
+/// Calls `body(i)` for i from `first` to last-1, in order, and asks now and then whether to stop. Always inlined, so
+/// that what the body counts in stays in registers.
+template <class Body>
+__attribute__((always_inline)) inline void for_range(Offset first, Offset last, const Body& body) {
+  constexpr Offset at_once = 1024;
+  for (Offset i = first; i < last;) {
+    stop_if_asked();
+    for (const Offset end = std::min(i + at_once, last); i < end; ++i) body(i);
+  }
+}
+
+/// What f(begin, end) returns of each of the nearly equal parts of 0..n-1 that host threads take, in that order.
+template <class F>
+auto of_parts(const char* label, Offset n, const F& f) {
+  using Result = std::decay_t<decltype(f(n, n))>;
+  static_assert(!std::is_same_v<Result, bool>, "threads can't write bits side by side");
+  std::vector<Result> all(threads_for(n));
+  for_parts(label, n, static_cast<int>(all.size()),
+            [&](int part, Offset begin, Offset end) { all[part] = f(begin, end); });
+  return all;
+}
+
+/// Where each of `keys` keys begins, and the end of the last, of members that parts have counted: parts[i][key] of
+/// them, which becomes where the part's first goes. So each key's members stand in the order of the parts.
+template <class Index, class Counts>
+std::vector<Index> begins_of_parts(std::vector<Counts>& parts, Offset keys) {
+  std::vector<Index> begin(1, 0);
+  begin.reserve(keys + 1);
+  Index at = 0;
+  for (Offset key = 0; key < keys; ++key) {
+    for (Counts& counts : parts) at += std::exchange(counts[key], at);
+    begin.push_back(at);
+  }
+  return begin;
+}
+
+/// All entries of these, one after the other.
+template <class T>
+std::vector<T> concatenated(std::vector<std::vector<T>> parts) {
+  std::vector<T> all = std::move(parts.front());
+  for (std::size_t part = 1; part < parts.size(); ++part) all.insert(all.end(), parts[part].begin(), parts[part].end());
+  return all;
+}
+
 }  // namespace detail
 
 /// Calls `body(i)` for every i in 0..n-1, in parallel and in no order. On a device it returns at once.
@@ -49,15 +97,28 @@ void parallel_for(const char* label, const Space& space, Offset n, const Body& b
   if constexpr (is_device<Space>) {
     Kokkos::parallel_for(label, Kokkos::RangePolicy<Space, Kokkos::IndexType<Offset>>(space, 0, n), body);
   } else {
-    detail::for_parts(label, n, detail::threads_for(n), [&](int, Offset begin, Offset end) {
-      for (Offset i = begin; i < end;) {
-        for (const Offset last = detail::piece_end(i, end); i < last; ++i) body(i);
-      }
-    });
+    detail::for_parts(label, n, detail::threads_for(n),
+                      [&](int, Offset begin, Offset end) { detail::for_range(begin, end, body); });
   }
 }
 
 namespace detail {
+
+/// An array of the host's whose i-th entry is value(i).
+template <class T, class Value>
+Array<T, HostMemory> tabulated(const char* label, Offset count, const Value& value) {
+  const auto all = allocate<Array<T, HostMemory>>(label, count);
+  parallel_for(label, HostExecutionSpace(), count, [&](Offset i) { all(i) = value(i); });
+  return all;
+}
+
+/// An array of the host's that has these entries.
+template <class T>
+Array<T, HostMemory> array_of(const std::string& label, const std::vector<T>& entries) {
+  const auto all = allocate<Array<T, HostMemory>>(label, entries.size());
+  std::copy(entries.begin(), entries.end(), all.data());
+  return all;
+}
 
 /// Writes its place, or the same value, to each entry.
 template <class Ids>
@@ -89,7 +150,7 @@ Array<Id, MemoryOf<Space>> iota(const std::string& label, const Space& space, Of
 }
 
 /// begin[i] = count(0) + ... + count(i-1) for i in 0..n; returns begin[n], for which it waits. `count(i)` may read
-/// begin[i].
+/// begin[i], and may be `begin`.
 template <class Space, class T, class Count>
 T exclusive_scan(const char* label, const Space& space, Offset n, const Array<T, typename Space::memory_space>& begin,
                  const Count& count) {
@@ -105,28 +166,23 @@ T exclusive_scan(const char* label, const Space& space, Offset n, const Array<T,
         total);
     return total;
   } else {
-    const int parts = detail::threads_for(n);
-    std::vector<T> part_sum(parts + 1, 0);
-    detail::for_parts(label, n, parts, [&](int part, Offset first, Offset last) {
+    std::vector<T> before = detail::of_parts(label, n, [&](Offset first, Offset last) {
       T sum = 0;
-      for (Offset i = first; i < last;) {
-        for (const Offset end = detail::piece_end(i, last); i < end; ++i) sum += static_cast<T>(count(i));
-      }
-      part_sum[part + 1] = sum;
+      detail::for_range(first, last, [&](Offset i) { sum += static_cast<T>(count(i)); });
+      return sum;
     });
-    for (int part = 0; part < parts; ++part) part_sum[part + 1] += part_sum[part];
-    detail::for_parts(label, n, parts, [&](int part, Offset first, Offset last) {
-      T sum = part_sum[part];
-      for (Offset i = first; i < last;) {
-        for (const Offset end = detail::piece_end(i, last); i < end; ++i) {
-          const T here = static_cast<T>(count(i));
-          begin(i) = sum;
-          sum += here;
-        }
-      }
+    T total = 0;
+    for (T& part : before) total += std::exchange(part, total);
+    detail::for_parts(label, n, static_cast<int>(before.size()), [&](int part, Offset first, Offset last) {
+      T sum = before[part];
+      detail::for_range(first, last, [&](Offset i) {
+        const T here = static_cast<T>(count(i));
+        begin(i) = sum;
+        sum += here;
+      });
     });
-    begin(n) = part_sum[parts];
-    return part_sum[parts];
+    begin(n) = total;
+    return total;
   }
 }
 
@@ -144,19 +200,15 @@ T reduce_min(const char* label, const Space& space, Offset n, T initial, const V
         Kokkos::Min<T>(least));
     return least < initial ? least : initial;
   } else {
-    const int parts = detail::threads_for(n);
-    std::vector<T> part_min(parts, initial);
-    detail::for_parts(label, n, parts, [&](int part, Offset first, Offset last) {
+    const std::vector<T> least = detail::of_parts(label, n, [&](Offset first, Offset last) {
       T best = initial;
-      for (Offset i = first; i < last;) {
-        for (const Offset end = detail::piece_end(i, last); i < end; ++i) {
-          const T here = value(i);
-          if (here < best) best = here;
-        }
-      }
-      part_min[part] = best;
+      detail::for_range(first, last, [&](Offset i) {
+        const T here = value(i);
+        if (here < best) best = here;
+      });
+      return best;
     });
-    return *std::min_element(part_min.begin(), part_min.end());
+    return *std::min_element(least.begin(), least.end());
   }
 }
 
@@ -170,37 +222,23 @@ Offset reduce_sum(const char* label, const Space& space, Offset n, const Value& 
         KOKKOS_LAMBDA(Offset i, Offset & sum) { sum += value(i); }, total);
     return total;
   } else {
-    const int parts = detail::threads_for(n);
-    std::vector<Offset> part_sum(parts, 0);
-    detail::for_parts(label, n, parts, [&](int part, Offset first, Offset last) {
+    const std::vector<Offset> sums = detail::of_parts(label, n, [&](Offset first, Offset last) {
       Offset sum = 0;
-      for (Offset i = first; i < last;) {
-        for (const Offset end = detail::piece_end(i, last); i < end; ++i) sum += value(i);
-      }
-      part_sum[part] = sum;
+      detail::for_range(first, last, [&](Offset i) { sum += value(i); });
+      return sum;
     });
-    Offset total = 0;
-    for (const Offset sum : part_sum) total += sum;
-    return total;
+    return std::accumulate(sums.begin(), sums.end(), Offset(0));
   }
 }
 
 /// What visit(i, add) adds for i in 0..n-1, in that order. On all host threads.
 template <class T, class Visit>
 std::vector<T> collected(const char* label, Offset n, const Visit& visit) {
-  std::vector<std::vector<T>> of_parts(detail::threads_for(n));
-  detail::for_parts(label, n, static_cast<int>(of_parts.size()), [&](int part, Offset first, Offset last) {
+  return detail::concatenated(detail::of_parts(label, n, [&](Offset first, Offset last) {
     std::vector<T> mine;
-    for (Offset i = first; i < last;) {
-      for (const Offset end = detail::piece_end(i, last); i < end; ++i)
-        visit(i, [&](const T& one) { mine.push_back(one); });
-    }
-    of_parts[part] = std::move(mine);
-  });
-  std::vector<T> all = std::move(of_parts.front());
-  for (std::size_t part = 1; part < of_parts.size(); ++part)
-    all.insert(all.end(), of_parts[part].begin(), of_parts[part].end());
-  return all;
+    detail::for_range(first, last, [&](Offset i) { visit(i, [&](const T& one) { mine.push_back(one); }); });
+    return mine;
+  }));
 }
 
 /// The numbers i of 0..n-1 for which is_wanted(i), ascending. Waits for them.
@@ -221,10 +259,33 @@ Array<Id, MemoryOf<Space>> selected(const char* label, const Space& space, Offse
     const auto found = collected<Id>(label, n, [&](Offset i, const auto& add) {
       if (is_wanted(i)) add(static_cast<Id>(i));
     });
-    const auto all = allocate<Array<Id, MemoryOf<Space>>>(label, found.size());
-    std::copy(found.begin(), found.end(), all.data());
-    return all;
+    return detail::array_of(label, found);
   }
 }
+
+namespace detail {
+
+/// Calls kernel(team) for so many teams, which have kernel.scratch_bytes() bytes of the fast memory of level 0 each: on
+/// a device teams of `warps` warps, enqueued on the instance as loops are; on the host each thread is one, of as many
+/// as `items` items are worth.
+template <class Space, class Kernel>
+void for_teams(const char* label, const Space& space, Offset teams, int warps, Offset items, const Kernel& kernel) {
+  if (teams == 0) return;
+  if constexpr (is_device<Space>) {
+    Kokkos::TeamPolicy<Space> policy(space, static_cast<int>(teams), warps, lanes_per_warp);
+    policy.set_scratch_size(0, Kokkos::PerTeam(static_cast<int>(kernel.scratch_bytes() + 16)));
+    Kokkos::parallel_for(label, policy, kernel);
+  } else {
+    for_parts(label, teams, threads_for(items), [&](int, Offset first, Offset last) {
+      std::vector<char> scratch(kernel.scratch_bytes());
+      for (Offset team = first; team < last; ++team) {
+        stop_if_asked_at(team);
+        kernel(HostTeam(static_cast<int>(team), scratch.data()));
+      }
+    });
+  }
+}
+
+}  // namespace detail
 
 }  // namespace gale

@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include <gale/base/for_teams.hpp>
 #include <gale/base/ordered.hpp>
+#include <gale/base/parallel.hpp>
 
 // Short rows put in order by the teams of a device.
 

@@ -30,11 +30,10 @@ struct Bits {
   explicit Bits(const Keys& keys) {
     const Offset n = keys.extent(0);
     const std::uint64_t* const all = keys.data();
-    std::vector<std::uint64_t> differ(detail::threads_for(n));
-    detail::for_parts("GALE::sort_bits", n, differ.size(), [&](int part, Offset first, Offset last) {
+    const auto differ = detail::of_parts("GALE::sort_bits", n, [&](Offset first, Offset last) {
       std::uint64_t mine = 0;
       for (Offset i = first; i < last; ++i) mine |= all[i] ^ all[0];
-      differ[part] = mine;
+      return mine;
     });
     const std::uint64_t any = std::accumulate(differ.begin(), differ.end(), std::uint64_t(0), std::bit_or<>());
     if (any == 0) return;
@@ -72,14 +71,9 @@ void place_digits(const Entries& from, Offset n, int digits, const DigitOf& digi
   detail::for_parts("GALE::sort_count", n, place.size(), [&, from](int part, Offset first, Offset last) {
     Histogram& mine = place[part];
     mine.fill(0);
-    for (Offset i = first; i < last;) {
-      for (const Offset end = detail::piece_end(i, last); i < end; ++i) ++mine[digit_of(from.key(i))];
-    }
+    detail::for_range(first, last, [&](Offset i) { ++mine[digit_of(from.key(i))]; });
   });
-  Offset sum = 0;
-  for (int digit = 0; digit < digits; ++digit) {
-    for (auto& mine : place) sum += std::exchange(mine[digit], sum);
-  }
+  detail::begins_of_parts<Offset>(place, digits);
 }
 
 /// Sorts by the bits [begin, end) of the keys, digit by digit, from one array to the other and back. Returns the one
@@ -96,10 +90,7 @@ Entries sort_by_digits(Entries from, Entries to, Offset n, int begin, int end) {
     place_digits(from, n, 1 << bits, digit_of, place);
     detail::for_parts("GALE::sort_move", n, place.size(), [&, from, to](int part, Offset first, Offset last) {
       Offset* const next = place[part].data();
-      for (Offset i = first; i < last;) {
-        for (const Offset piece = detail::piece_end(i, last); i < piece; ++i)
-          to.take(next[digit_of(from.key(i))]++, from, i);
-      }
+      detail::for_range(first, last, [&](Offset i) { to.take(next[digit_of(from.key(i))]++, from, i); });
     });
     std::swap(from, to);
   }

@@ -57,13 +57,6 @@ inline void stop_if_asked_at(std::int64_t i) {
   if (i % between == 0) stop_if_asked();
 }
 
-/// Where the next piece of a loop ends that begins at `i`, no later than `end`; asks whether to stop.
-inline std::int64_t piece_end(std::int64_t i, std::int64_t end) {
-  constexpr std::int64_t most = 1024;
-  stop_if_asked();
-  return std::min(i + most, end);
-}
-
 /// Locks a mutex that others may hold while they compute for long.
 GALE_EXPORT std::unique_lock<std::mutex> lock_or_stop(std::mutex& mutex);
 

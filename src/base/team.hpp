@@ -37,15 +37,12 @@ inline constexpr bool is_sequential = std::is_same_v<Team, HostTeam>;
 namespace team {
 
 /// How many warps the team has.
-KOKKOS_FORCEINLINE_FUNCTION int warps(const HostTeam&) { return 1; }
-/// The number of this thread's warp in its team.
-KOKKOS_FORCEINLINE_FUNCTION int warp(const HostTeam&) { return 0; }
-/// warps for a team of Kokkos'.
 template <class Team>
 KOKKOS_FORCEINLINE_FUNCTION int warps(const Team& team) {
   return team.team_size();
 }
-/// warp for a team of Kokkos'.
+
+/// The number of this thread's warp in its team.
 template <class Team>
 KOKKOS_FORCEINLINE_FUNCTION int warp(const Team& team) {
   return team.team_rank();
@@ -69,8 +66,6 @@ KOKKOS_FORCEINLINE_FUNCTION char* scratch(const Team& team, std::size_t bytes) {
 }
 
 /// All threads of the team meet, and see each other's writes.
-KOKKOS_FORCEINLINE_FUNCTION void barrier(const HostTeam&) {}
-/// barrier for a team of Kokkos'.
 template <class Team>
 KOKKOS_FORCEINLINE_FUNCTION void barrier(const Team& team) {
   team.team_barrier();
@@ -131,8 +126,6 @@ KOKKOS_FORCEINLINE_FUNCTION void for_lanes(const Team& team, int n, const Body& 
 }
 
 /// Inside for_warps: the lanes of this warp meet and see each other's writes.
-KOKKOS_FORCEINLINE_FUNCTION void warp_barrier(const HostTeam&) {}
-/// warp_barrier for a team of Kokkos'.
 template <class Team>
 KOKKOS_FORCEINLINE_FUNCTION void warp_barrier(const Team& team) {
   for_lanes(team, 1, [](int) {});

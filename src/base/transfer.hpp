@@ -60,49 +60,33 @@ GALE_EXPORT void write_to_device(void* device, std::size_t bytes,
 /// Takes the pinned memory of these for so many threads, which else the first copy does.
 GALE_EXPORT void prepare_copies(int threads);
 
-namespace detail {
-
-/// What a copy is called: as its original, which has no name if it is a caller's.
-inline std::string copy_label(const std::string& label) { return label.empty() ? "GALE::copy" : label; }
-
-}  // namespace detail
-
-/// The contents of a View where the workers can read them: the View itself if they can already, else a copy.
-template <class T, class... Properties>
-auto on_worker(const Kokkos::View<T, Properties...>& view) {
-  using Given = Kokkos::View<T, Properties...>;
-  using OnWorker = Kokkos::View<T, typename Given::array_layout, WorkerMemory>;
-  if constexpr (have_device && !is_device_memory<typename Given::memory_space>) {
-    const auto copy = allocate<typename OnWorker::non_const_type>(detail::copy_label(view.label()), view.extent(0));
-    copy_to_device(copy.data(), view.data(), view.size() * sizeof(typename Given::value_type));
-    return OnWorker(copy);
-  } else {
-    return OnWorker(view);
-  }
-}
-
-/// The contents of a View where the host can read them: itself if it can already, else a copy.
-template <class T, class... Properties>
-auto on_host(const Kokkos::View<T, Properties...>& view) {
-  using Given = Kokkos::View<T, Properties...>;
-  using OnHost = Kokkos::View<T, typename Given::array_layout, HostMemory>;
-  if constexpr (is_device_memory<typename Given::memory_space>) {
-    const auto copy = allocate<typename OnHost::non_const_type>(detail::copy_label(view.label()), view.extent(0));
-    copy_from_device(copy.data(), view.data(), view.size() * sizeof(typename Given::value_type));
-    return OnHost(copy);
-  } else {
-    return OnHost(view);
-  }
-}
-
-/// The contents of a View in `Memory`, the host's or the workers': itself if it lies there, else a copy.
+/// The contents of a View in `Memory`, the host's or the workers': the View itself if they can be read there already,
+/// else a copy.
 template <class Memory, class T, class... Properties>
 auto in_memory(const Kokkos::View<T, Properties...>& view) {
-  if constexpr (is_device_memory<Memory>) {
-    return on_worker(view);
+  using Given = Kokkos::View<T, Properties...>;
+  using There = Kokkos::View<T, typename Given::array_layout, Memory>;
+  if constexpr (is_device_memory<typename Given::memory_space> == is_device_memory<Memory>) {
+    return There(view);
   } else {
-    return on_host(view);
+    const std::string label = view.label();  // a caller's View may have none
+    const auto copy = allocate<typename There::non_const_type>(label.empty() ? "GALE::copy" : label, view.extent(0));
+    constexpr auto copy_bytes = is_device_memory<Memory> ? copy_to_device : copy_from_device;
+    copy_bytes(copy.data(), view.data(), view.size() * sizeof(typename Given::value_type));
+    return There(copy);
   }
+}
+
+/// The contents of a View where the workers can read them.
+template <class T, class... Properties>
+auto on_worker(const Kokkos::View<T, Properties...>& view) {
+  return in_memory<WorkerMemory>(view);
+}
+
+/// The contents of a View where the host can read them.
+template <class T, class... Properties>
+auto on_host(const Kokkos::View<T, Properties...>& view) {
+  return in_memory<HostMemory>(view);
 }
 
 /// The entries of a vector in `Memory`: themselves, as long as they are there, or a copy.

@@ -73,6 +73,13 @@ struct Communicator::Data {
     wait(one, 0);
   }
 
+  template <class T>
+  T least(T value, MPI_Datatype type) {
+    T least = 0;
+    complete([&](MPI_Request* request) { MPI_Iallreduce(&value, &least, 1, type, MPI_MIN, comm, request); });
+    return least;
+  }
+
   /// Calls act(first byte, bytes) for each message that the bytes [begin, end) are cut into.
   template <class Act>
   void cut(std::int64_t begin, std::int64_t end, const Act& act) const {
@@ -100,19 +107,8 @@ void Communicator::sum(std::int64_t* values, int count) const {
   });
 }
 
-std::int64_t Communicator::least(std::int64_t value) const {
-  std::int64_t least = 0;
-  data_->complete(
-      [&](MPI_Request* request) { MPI_Iallreduce(&value, &least, 1, MPI_INT64_T, MPI_MIN, data_->comm, request); });
-  return least;
-}
-
-double Communicator::least(double value) const {
-  double least = 0;
-  data_->complete(
-      [&](MPI_Request* request) { MPI_Iallreduce(&value, &least, 1, MPI_DOUBLE, MPI_MIN, data_->comm, request); });
-  return least;
-}
+std::int64_t Communicator::least(std::int64_t value) const { return data_->least(value, MPI_INT64_T); }
+double Communicator::least(double value) const { return data_->least(value, MPI_DOUBLE); }
 
 std::vector<std::int64_t> Communicator::all(std::int64_t value) const {
   std::vector<std::int64_t> values(size());

@@ -20,25 +20,18 @@ namespace gale {
 
 namespace detail {
 
-/// A value that the first caller of get() makes, on any thread. Other threads wait for it.
+/// A value that is made in a way that is told before anybody asks.
 template <class T>
 class OnDemand {
  public:
-  /// Before anybody asks.
   void made_by(std::function<T()> make) { make_ = std::move(make); }
-
   const T& get() const {
-    once_([this] {
-      if (make_) value_ = make_();
-      make_ = nullptr;
-    });
-    return value_;
+    return value_.get([this] { return make_ ? make_() : T(); });
   }
 
  private:
-  mutable Once once_;
-  mutable std::function<T()> make_;
-  mutable T value_{};
+  std::function<T()> make_;
+  OnceMade<T> value_;
 };
 
 }  // namespace detail
@@ -167,8 +160,6 @@ class DistributedMesh::Sharing final : public Exchange {
   Mesh take(const MeshPart<Index>& part, const PartitionOptions& options, const std::shared_ptr<const Exchange>& self);
   detail::ExchangePlan::Run share(const detail::VertexDirectory& directory,
                                   Array<detail::VertexEntry, HostMemory> of_owned);
-  Array<detail::VertexEntry, HostMemory> entries_of_all(const Array<detail::VertexEntry, HostMemory>& of_owned,
-                                                        const Array<detail::VertexEntry, HostMemory>& of_ghosts) const;
   detail::OwnAndGhosts share_points(const HostPoints& given, const detail::ExchangePlan::Run& run) const;
 
   Communicator ranks_;
@@ -192,10 +183,8 @@ DistributedMesh::Sharing::Sharing(const Communicator& all) : ranks_(all) {
   cell_index_.made_by([this] { return detail::GlobalIndex(cell_ids.get()); });
   points.made_by([this] { return placed_.by_id(held_); });
   owners.made_by([this] {
-    const auto known = detail::tabulated<int>("GALE::owners", held_.count(), [&](Offset) { return ranks_.rank(); });
-    parallel_for("GALE::owners", HostExecutionSpace(), held_.ghost_count(),
-                 [&](Offset i) { known(held_.ghost(i)) = ghost_owners_(i); });
-    return known;
+    return held_.tabulated<int>(
+        "GALE::owners", [this](Offset) { return ranks_.rank(); }, ghost_owners_);
   });
 }
 
@@ -234,7 +223,7 @@ detail::ExchangePlan::Run DistributedMesh::Sharing::share(const detail::VertexDi
     ghost_owners_ =
         detail::tabulated<int>("GALE::ghost_owners", held_.ghost_count(), [&](Offset i) { return of_ghosts(i).owner; });
     slots = in_place ? ghosts : iota("GALE::all_vertices", HostExecutionSpace(), held_.count());
-    entries = in_place ? of_ghosts : entries_of_all(of_owned, of_ghosts);
+    entries = in_place ? of_ghosts : held_.tabulated<detail::VertexEntry>("GALE::entries_of_all", of_owned, of_ghosts);
     of_owned = {};
   });
   from_givers_ = detail::ExchangePlan(
@@ -244,18 +233,6 @@ detail::ExchangePlan::Run DistributedMesh::Sharing::share(const detail::VertexDi
       ranks_, {}, ghosts, [&](Id i) { return ghost_owners_(i); }, [&](Id i) { return held_.ghosts()(i); },
       [&](GlobalId id) { return held_.find(id); });
   return run;
-}
-
-/// Puts entries in the order of local input ids.
-Array<detail::VertexEntry, HostMemory> DistributedMesh::Sharing::entries_of_all(
-    const Array<detail::VertexEntry, HostMemory>& of_owned,
-    const Array<detail::VertexEntry, HostMemory>& of_ghosts) const {
-  const auto all = allocate<Array<detail::VertexEntry, HostMemory>>("GALE::entries_of_all", held_.count());
-  parallel_for("GALE::entries_of_all", HostExecutionSpace(), held_.owned_count(),
-               [&](Offset i) { all(held_.owned(i)) = of_owned(i); });
-  parallel_for("GALE::entries_of_all", HostExecutionSpace(), held_.ghost_count(),
-               [&](Offset i) { all(held_.ghost(i)) = of_ghosts(i); });
-  return all;
 }
 
 /// Brings points to those who hold them.
@@ -375,15 +352,8 @@ Mesh DistributedMesh::Sharing::make(const GridLayers& part, const PartitionOptio
   return *mesh;
 }
 
-DistributedMesh::Shared DistributedMesh::shared(const Communicator& ranks, const GridLayers& part,
-                                                const PartitionOptions& options) {
-  const auto sharing = std::make_shared<Sharing>(ranks);
-  const Mesh mesh = sharing->make(part, options, sharing);
-  return {mesh, sharing};
-}
-
-template <class Index>
-DistributedMesh::Shared DistributedMesh::shared(const Communicator& ranks, const MeshPart<Index>& part,
+template <class Part>
+DistributedMesh::Shared DistributedMesh::shared(const Communicator& ranks, const Part& part,
                                                 const PartitionOptions& options) {
   const auto sharing = std::make_shared<Sharing>(ranks);
   const Mesh mesh = sharing->make(part, options, sharing);
@@ -396,11 +366,12 @@ const Array<const int, HostMemory>& DistributedMesh::owners() const { return sha
 const Points<double, HostMemory>& DistributedMesh::points() const { return sharing_->points.get(); }
 const CellRows<Id>& DistributedMesh::corners() const { return sharing_->corners; }
 
-#define GALE_INSTANTIATE(Index)                                                                                     \
-  template GALE_EXPORT DistributedMesh::Shared DistributedMesh::shared(const Communicator&, const MeshPart<Index>&, \
+#define GALE_INSTANTIATE(Part)                                                                           \
+  template GALE_EXPORT DistributedMesh::Shared DistributedMesh::shared(const Communicator&, const Part&, \
                                                                        const PartitionOptions&)
-GALE_INSTANTIATE(std::int32_t);
-GALE_INSTANTIATE(std::int64_t);
+GALE_INSTANTIATE(GridLayers);
+GALE_INSTANTIATE(MeshPart<std::int32_t>);
+GALE_INSTANTIATE(MeshPart<std::int64_t>);
 #undef GALE_INSTANTIATE
 
 }  // namespace gale

@@ -77,9 +77,8 @@ class GALE_EXPORT DistributedMesh : public Mesh {
 
   explicit DistributedMesh(const Shared& all) : Mesh(all.first), sharing_(all.second) {}
 
-  template <class Index>
-  static Shared shared(const Communicator& ranks, const MeshPart<Index>& part, const PartitionOptions& options);
-  static Shared shared(const Communicator& ranks, const GridLayers& part, const PartitionOptions& options);
+  template <class Part>
+  static Shared shared(const Communicator& ranks, const Part& part, const PartitionOptions& options);
 
   std::shared_ptr<const Sharing> sharing_;
 };

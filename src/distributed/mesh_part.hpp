@@ -15,14 +15,6 @@ namespace gale {
 
 namespace detail {
 
-/// An array whose i-th entry is value(i).
-template <class T, class Value>
-Array<T, HostMemory> tabulated(const char* label, Offset count, const Value& value) {
-  const auto all = allocate<Array<T, HostMemory>>(label, count);
-  parallel_for(label, HostExecutionSpace(), count, [&](Offset i) { all(i) = value(i); });
-  return all;
-}
-
 /// Rows of T, `width` in each, whose k-th of row i is value(i, k).
 template <class T, int width, class Value>
 auto tabulated_rows(const char* label, Offset count, const Value& value) {

@@ -4,28 +4,19 @@
 
 namespace gale {
 
-namespace {
-
-/// Has every value where it is.
-const detail::ExchangePlan& plan_of_nothing() {
-  static const detail::ExchangePlan plan;
-  return plan;
-}
-
-}  // namespace
-
 const Exchange& Exchange::of_whole_mesh() {
   static const Exchange whole;
   return whole;
 }
 
 Array<int, HostMemory> Exchange::owners_of(const Array<const GlobalId, HostMemory>& ids) const {
-  const auto owners = allocate<Array<int, HostMemory>>("GALE::owners", ids.extent(0));
-  fill("GALE::owners", HostExecutionSpace(), owners, 0);
-  return owners;
+  return detail::tabulated<int>("GALE::owners", ids.extent(0), [](Offset) { return 0; });
 }
 
-const detail::ExchangePlan& Exchange::from_givers() const { return plan_of_nothing(); }
-const detail::ExchangePlan& Exchange::from_owners() const { return plan_of_nothing(); }
+const detail::ExchangePlan& Exchange::from_givers() const {
+  static const detail::ExchangePlan every_value_is_where_it_is;
+  return every_value_is_where_it_is;
+}
+const detail::ExchangePlan& Exchange::from_owners() const { return Exchange::from_givers(); }
 
 }  // namespace gale

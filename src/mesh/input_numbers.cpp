@@ -13,20 +13,12 @@ namespace {
 template <class Space>
 using SpaceIds = Array<Id, MemoryOf<Space>>;
 
-template <class Memory>
-struct EntryAt {
-  Array<Id, Memory> entries;
-
-  KOKKOS_FUNCTION Id operator()(Id i) const { return entries(i); }
-};
-
 /// The places that simplices have in order, by two numbers each: `first`, of which there are `firsts`, then `second`.
 /// No two have the same.
 template <class Space>
 SpaceIds<Space> places_of(const Space& space, Offset firsts, const SpaceIds<Space>& first,
                           const SpaceIds<Space>& second) {
-  const auto rows =
-      group_by_key<Id>("GALE::input_order", space, first.extent(0), firsts, EntryAt<MemoryOf<Space>>{first});
+  const auto rows = group_by_key<Id>("GALE::input_order", space, first.extent(0), firsts, first);
   const auto begin = rows.offsets;
   const auto row = rows.entries;
   parallel_for(

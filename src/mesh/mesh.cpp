@@ -27,20 +27,6 @@ struct PermutedMesh {
   Interval owned_segments;
 };
 
-/// The arrays of a mesh for code that runs on `Memory`, once someone has asked for them.
-template <class Memory>
-class EncodedOnce {
- public:
-  const EncodedMesh<Memory>& of(const MeshArrays& arrays) {
-    once_([&] { mesh_ = arrays.in<Memory>(); });
-    return mesh_;
-  }
-
- private:
-  Once once_;
-  EncodedMesh<Memory> mesh_;
-};
-
 }  // namespace detail
 
 namespace {
@@ -182,9 +168,8 @@ class Mesh::Data {
         owned_segments(mesh.owned_segments),
         simplices(mesh.arrays.dimension, [this]() -> const detail::MeshArrays& { return arrays(); }),
         divided_(mesh.arrays),
-        arrays_(mesh.arrays),
         permutations_(mesh.permutations) {
-    arrays_.external_begin.in<HostMemory>();
+    divided_.external_begin.in<HostMemory>();
     publish();
   }
 
@@ -203,27 +188,33 @@ class Mesh::Data {
   const detail::MeshArrays& divided() const { return divided_; }
 
   const detail::MeshArrays& arrays() const {
-    if (grid) {
-      written_([this] {
-        arrays_ = in_worker_or_host_space(on_device(),
-                                          [this](const auto& space) { return write_out(space, *grid, divided_); });
-      });
-    }
-    return arrays_;
+    if (!grid) return divided_;
+    return written_.get([this] {
+      return in_worker_or_host_space(on_device(),
+                                     [this](const auto& space) { return write_out(space, *grid, divided_); });
+    });
   }
 
   const detail::Permutations& permutations() const {
-    if (grid) {
-      permuted_([this] {
-        permutations_ = in_worker_or_host_space(on_device(), [this](const auto& space) {
-          const Mirrored<Id> of_vertices = iota("GALE::grid_vertices", space, vertices),
-                             of_cells = iota("GALE::grid_cell_ids", space, cells);
-          space.fence();
-          return detail::Permutations{of_vertices, of_vertices, of_cells};
-        });
+    if (!grid) return permutations_;
+    return of_grid_.get([this] {
+      return in_worker_or_host_space(on_device(), [this](const auto& space) {
+        const Mirrored<Id> of_vertices = iota("GALE::grid_vertices", space, vertices),
+                           of_cells = iota("GALE::grid_cell_ids", space, cells);
+        space.fence();
+        return detail::Permutations{of_vertices, of_vertices, of_cells};
       });
+    });
+  }
+
+  template <class Memory>
+  const EncodedMesh<Memory>& encoded() const {
+    const auto make = [this] { return arrays().in<Memory>(); };
+    if constexpr (is_device_memory<Memory>) {
+      return worker_.get(make);
+    } else {
+      return host_.get(make);
     }
-    return permutations_;
   }
 
   bool on_device() const { return divided_.internal_begin.on_device(); }
@@ -233,8 +224,6 @@ class Mesh::Data {
   const std::optional<Grid> grid;
   const Id vertices, cells;
   const Interval owned_segments;
-  mutable detail::EncodedOnce<WorkerMemory> worker;
-  mutable detail::EncodedOnce<HostMemory> host;
   mutable detail::SimplexStore simplices;
   mutable std::mutex kept_mutex;
   mutable std::map<std::string, std::shared_ptr<const void>> kept;
@@ -246,10 +235,12 @@ class Mesh::Data {
     divided_.internal_begin.in<HostMemory>();
   }
 
-  const detail::MeshArrays divided_;
-  mutable detail::Once written_, permuted_;
-  mutable detail::MeshArrays arrays_;
-  mutable detail::Permutations permutations_;
+  const detail::MeshArrays divided_;  ///< of cells that are no grid: all arrays
+  const detail::Permutations permutations_;
+  detail::OnceMade<detail::MeshArrays> written_;
+  detail::OnceMade<detail::Permutations> of_grid_;
+  detail::OnceMade<EncodedMesh<WorkerMemory>> worker_;
+  detail::OnceMade<EncodedMesh<HostMemory>> host_;
 };
 
 template <int corners, class Index, class Memory>
@@ -315,11 +306,7 @@ std::string Mesh::notice() const { return data_->notice.empty() ? data_->simplic
 
 template <class Memory>
 const EncodedMesh<Memory>& Mesh::encoded() const {
-  if constexpr (is_device_memory<Memory>) {
-    return data_->worker.of(data_->arrays());
-  } else {
-    return data_->host.of(data_->arrays());
-  }
+  return data_->encoded<Memory>();
 }
 
 const Array<const Id, HostMemory>& Mesh::vertex_begin() const { return interval_begin(0); }

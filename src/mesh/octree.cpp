@@ -95,9 +95,7 @@ KOKKOS_FUNCTION Id leaf_end(const Codes<Memory>& codes, Id begin, Id capacity) {
 
 /// Goes from leaf to leaf.
 std::vector<Id> leaves_on_host(const Codes<HostMemory>& codes, Id capacity) {
-  const Offset count = codes.extent(0);
-  std::vector<std::vector<Id>> found(threads_for(count));
-  for_parts("GALE::octree_leaves", count, found.size(), [&](int part, Offset first, Offset last) {
+  return concatenated(of_parts("GALE::octree_leaves", codes.extent(0), [&](Offset first, Offset last) {
     std::vector<Id> mine;
     Id at = static_cast<Id>(first);
     while (at < last && !begins_leaf(codes, at, capacity)) ++at;
@@ -105,12 +103,8 @@ std::vector<Id> leaves_on_host(const Codes<HostMemory>& codes, Id capacity) {
       stop_if_asked_at(static_cast<Offset>(mine.size()));
       mine.push_back(at);
     }
-    found[part] = std::move(mine);
-  });
-  std::vector<Id> leaves = std::move(found[0]);
-  for (std::size_t part = 1; part < found.size(); ++part)
-    leaves.insert(leaves.end(), found[part].begin(), found[part].end());
-  return leaves;
+    return mine;
+  }));
 }
 
 /// A box around nothing.
@@ -130,17 +124,13 @@ KOKKOS_FUNCTION void extend(Box& box, const double (&low)[3], const double (&hig
 /// Reads the points once. Its ends are finite if all points are.
 template <class Coordinate>
 Box box_on_host(const Points<Coordinate, HostMemory>& points) {
-  const Offset count = points.extent(0);
-  std::vector<Box> boxes(threads_for(count), empty_box());
-  for_parts("GALE::bounding_box", count, boxes.size(), [&](int part, Offset first, Offset last) {
+  const auto boxes = of_parts("GALE::bounding_box", points.extent(0), [&](Offset first, Offset last) {
     Box box = empty_box();
-    for (Offset i = first; i < last;) {
-      for (const Offset end = piece_end(i, last); i < end; ++i) {
-        const double point[3] = {points(i, 0), points(i, 1), points(i, 2)};
-        extend(box, point, point);
-      }
-    }
-    boxes[part] = box;
+    for_range(first, last, [&](Offset i) {
+      const double point[3] = {points(i, 0), points(i, 1), points(i, 2)};
+      extend(box, point, point);
+    });
+    return box;
   });
   Box all = empty_box();
   for (const Box& box : boxes) extend(all, box.low, box.high);
@@ -244,8 +234,7 @@ std::vector<Id> octree_leaves(const Space& space, const Array<std::uint64_t, Mem
   parallel_for(
       "GALE::octree_leaves", space, count,
       KOKKOS_LAMBDA(Offset i) { leaf_of(i) = begins_leaf(codes, static_cast<Id>(i), limit) ? 1 : 0; });
-  const Id leaves = exclusive_scan(
-      "GALE::count_leaves", space, count, leaf_of, KOKKOS_LAMBDA(Offset i) { return leaf_of(i); });
+  const Id leaves = exclusive_scan("GALE::count_leaves", space, count, leaf_of, leaf_of);
   const auto begin = allocate<Ids>("GALE::leaf_begin", leaves);
   parallel_for(
       "GALE::leaf_begin", space, count, KOKKOS_LAMBDA(Offset i) {

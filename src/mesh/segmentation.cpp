@@ -13,11 +13,7 @@ namespace gale {
 
 namespace {
 
-Mirrored<Id> vertex_begin_of(const std::vector<Id>& begin) {
-  const auto ids = allocate<Array<Id, HostMemory>>("GALE::vertex_begin", begin.size());
-  std::copy(begin.begin(), begin.end(), ids.data());
-  return ids;
-}
+Mirrored<Id> vertex_begin_of(const std::vector<Id>& begin) { return detail::array_of("GALE::vertex_begin", begin); }
 
 template <class Coordinate, class Space>
 Segmentation octree_in(const Space& space, const Points<Coordinate, MemoryOf<Space>>& points, int capacity) {

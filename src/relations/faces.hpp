@@ -1,5 +1,7 @@
 #pragma once
 
+#include <type_traits>
+
 #include <gale/mesh/simplices.hpp>
 #include <gale/relations/relation.hpp>
 
@@ -59,5 +61,28 @@ KOKKOS_INLINE_FUNCTION FaceRow<face_count(relation)> face_row(const Simplices<Me
     }
   }
 }
+
+namespace detail {
+
+/// Returns use(constant) of a relation to faces, which is known to the compiler there.
+template <class Use>
+auto with_faces_of(Relation relation, const Use& use) {
+  switch (relation) {
+    case Relation::EV:
+      return use(std::integral_constant<Relation, Relation::EV>());
+    case Relation::FV:
+      return use(std::integral_constant<Relation, Relation::FV>());
+    case Relation::FE:
+      return use(std::integral_constant<Relation, Relation::FE>());
+    case Relation::TV:
+      return use(std::integral_constant<Relation, Relation::TV>());
+    case Relation::TE:
+      return use(std::integral_constant<Relation, Relation::TE>());
+    default:
+      return use(std::integral_constant<Relation, Relation::TF>());
+  }
+}
+
+}  // namespace detail
 
 }  // namespace gale

@@ -12,7 +12,6 @@ template <class Memory>
 struct CountEntries {
   Array<Offset, Memory> sizes;
   KOKKOS_FUNCTION void operator()(Id simplex, const Row& row) const { sizes(simplex) = row.size(); }
-  KOKKOS_FUNCTION Offset operator()(Offset simplex) const { return sizes(simplex); }
 };
 
 template <class Memory>
@@ -41,9 +40,8 @@ Csr<const Id, detail::MemoryOfSweep<Space>> graph_of(const Space& space, const M
     const Offset rows = mesh.interval_begin(row_dimension(relation))(mesh.segments());
     const auto offsets = allocate<Array<Offset, Memory>>("GALE::graph_offsets", rows + 1);
     if (mesh.owned_segments().size() < mesh.segments()) Kokkos::deep_copy(offsets, Offset(0));
-    const detail::CountEntries<Memory> count{offsets};
-    for_each_row(space, mesh, relation, count, options);
-    const Offset total = exclusive_scan("GALE::graph_offsets", space, rows, offsets, count);
+    for_each_row(space, mesh, relation, detail::CountEntries<Memory>{offsets}, options);
+    const Offset total = exclusive_scan("GALE::graph_offsets", space, rows, offsets, offsets);
     const auto entries = allocate<Array<Id, Memory>>("GALE::graph_entries", total);
     for_each_row(space, mesh, relation, detail::CopyEntries<Memory>{offsets, entries}, options);
     return {offsets, entries};

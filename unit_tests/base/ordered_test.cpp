@@ -21,6 +21,15 @@ TEST(Bisect, finds_the_first_that_is_not_before) {
   EXPECT_EQ(place(2, 2, 9), 2);
 }
 
+TEST(Gallop, finds_what_bisect_finds_from_any_begin) {
+  constexpr Offset end = 40;
+  for (Offset sought = 0; sought <= end; ++sought) {
+    const auto is_before = [=](Offset place) { return place < sought; };
+    for (Offset begin = 0; begin <= end; ++begin)
+      EXPECT_EQ(gallop(begin, end, is_before), bisect(begin, end, is_before)) << sought << " from " << begin;
+  }
+}
+
 TEST(HeapSort, is_that_of_the_standard_library) {
   std::mt19937 random(1);
   for (const Id count : {0, 1, 2, 3, 10, 64, 65, 1000}) {

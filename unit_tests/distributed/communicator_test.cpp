@@ -85,7 +85,7 @@ TEST(Together, all_throw_what_the_lowest_rank_that_fails_says) {
   EXPECT_EQ(message_of([&] { detail::together(ranks, [] {}); }), "no error");
 }
 
-TEST(ItemsByRank, has_each_item_with_each_of_its_ranks_ascending) {
+TEST(GroupByRank, has_each_item_with_each_of_its_ranks_ascending) {
   constexpr Offset items = 20000;
   for (const int ranks : {5, 300}) {
     const auto groups = detail::group_by_rank(ranks, items, [=](Id i, const auto& visit) {
@@ -97,7 +97,7 @@ TEST(ItemsByRank, has_each_item_with_each_of_its_ranks_ascending) {
       for (Id i = 0; i < items; ++i) {
         if ((i % 3 == 0 && i % ranks == rank) || (i % 7 == 0 && (i + 1) % ranks == rank)) {
           ASSERT_LT(at, groups.begin[rank + 1]);
-          EXPECT_EQ(groups.members(at++), i);
+          EXPECT_EQ(groups.entries(at++), i);
         }
       }
       EXPECT_EQ(at, groups.begin[rank + 1]);

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include <gale/base/atomic.hpp>
-#include <gale/base/counted_word.hpp>
+#include <gale/base/bits.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/types.hpp>
 

@@ -81,7 +81,7 @@ class WholeGathering {
     const CellReader cell = mesh_.cell_reader();
     const OtherIds input = mesh_.vertices_in_input(), cell_input = mesh_.cells_in_input();
     const Interval owned = mesh_.owned_vertices();
-    const ItemsByRank groups = group_by_rank(2, mesh_.cells(), [&](Id t, const auto& visit) {
+    const EntriesByRank<Id> groups = group_by_rank(2, mesh_.cells(), [&](Id t, const auto& visit) {
       const Quad corners = cell(t);
       Id lowest = corners.a;
       for (int k = 1; k < 4; ++k) {
@@ -90,7 +90,7 @@ class WholeGathering {
       visit(owned.has(lowest) ? 0 : 1);
     });
     return to_first<OwnedCell>(groups.begin[1], [&](Offset i) {
-      const Id t = groups.members(i);
+      const Id t = groups.entries(i);
       const Quad corners = cell(t);
       return OwnedCell{mesh_.cell_id(cell_input[t]), {corners.a, corners.b, corners.c, corners.d}};
     });

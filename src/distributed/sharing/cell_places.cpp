@@ -2,6 +2,7 @@
 #include <vector>
 
 #include <gale/base/error.hpp>
+#include <gale/base/ordered.hpp>
 #include <gale/base/sort.hpp>
 #include <gale/distributed/mesh_part.hpp>
 #include <gale/distributed/sharing/cell_places.hpp>
@@ -42,7 +43,7 @@ void CellPlaces::merge() {
   for_parts("GALE::merge_received", received, threads_for(received), [&](int, Offset first, Offset last) {
     Offset before = 0;  // how many of those that are kept come before the one at hand
     for (Offset r = first; r < last; ++r) {
-      before = kept_before(id(r), before);
+      before = gallop(before, kept_.count, [&](Offset k) { return kept_.id(k) < id(r); });
       received_at_(r) = static_cast<Id>(before + r);
     }
   });
@@ -53,22 +54,6 @@ void CellPlaces::merge() {
   const Offset bad = reduce_min("GALE::repeated_cell", HostExecutionSpace(), received, received,
                                 [&](Offset r) { return is_repeated(r) ? r : received; });
   if (bad < received) refuse_repeated(id(bad));
-}
-
-/// How many of those that are kept have ids below one, at least `before` of them; it is mostly near that.
-Offset CellPlaces::kept_before(GlobalId id, Offset before) const {
-  Offset end = before;
-  for (Offset step = 1; end < kept_.count && kept_.id(end) < id; step *= 2) {
-    before = end + 1;
-    end = std::min(before + step, kept_.count);
-  }
-  while (before < end) {
-    const Offset middle = before + (end - before) / 2;
-    const bool is_below = kept_.id(middle) < id;
-    before = is_below ? middle + 1 : before;
-    end = is_below ? end : middle;
-  }
-  return before;
 }
 
 void CellPlaces::sort() {

@@ -80,7 +80,6 @@ class CellPlaces {
  private:
   void merge();
   void sort();
-  Offset kept_before(GlobalId id, Offset before) const;
 
   /// How many of those that were received come before the i-th of all.
   Offset received_before(Offset i) const {

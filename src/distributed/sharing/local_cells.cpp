@@ -50,20 +50,18 @@ SomeCells cells_beyond(const MeshPart<Index>& part, const IdInterval& own) {
   if (own.is_empty()) return {count, {}};
   const Index* const ids = part.cells.data();
   const IndexInterval<Index> inner(own);
-  std::vector<std::vector<Id>> of_parts(threads_for(count));
-  for_parts("GALE::outer_cells", count, static_cast<int>(of_parts.size()), [&](int some, Offset first, Offset last) {
+  const auto outer = concatenated(of_parts("GALE::outer_cells", count, [&](Offset first, Offset last) {
+    std::vector<Id> mine;
     for (Offset begin = first; begin < last; begin += block) {
       const Offset end = std::min(begin + block, last);
       if (inner.contains(ids + corners * begin, corners * (end - begin))) continue;
       for (Offset t = begin; t < end; ++t) {
-        if (!inner.contains(ids + corners * t, corners)) of_parts[some].push_back(static_cast<Id>(t));
+        if (!inner.contains(ids + corners * t, corners)) mine.push_back(static_cast<Id>(t));
       }
     }
-  });
-  std::vector<Id> all;
-  for (const auto& some : of_parts) all.insert(all.end(), some.begin(), some.end());
-  const Offset found = static_cast<Offset>(all.size());
-  return {found, tabulated<Id>("GALE::outer_cells", found, [&](Offset i) { return all[i]; })};
+    return mine;
+  }));
+  return {static_cast<Offset>(outer.size()), array_of("GALE::outer_cells", outer)};
 }
 
 /// The vertices that some cells of a part have outside `own` and `handed`, ascending, none twice. Throws gale::Error
@@ -225,22 +223,21 @@ KeptCells LocalCells<Index>::choose(const Communicator& ranks, const VertexDirec
   KeptCells all_kept;
   together(ranks, [&] {
     const int here = ranks.rank();
-    ItemsByRank groups;
+    EntriesByRank<Id> groups;
     with_constant(corners(), [&](auto corners) {
       groups = group_by_rank(ranks.size(), outer.count,
                              [&](Id i, const auto& visit) { owners.template visit_ranks<corners>(outer[i], visit); });
     });
-    std::vector<std::int64_t> counts(ranks.size());
-    for (int rank = 0; rank < ranks.size(); ++rank) counts[rank] = groups.begin[rank + 1] - groups.begin[rank];
+    auto counts = counts_of(groups);
     const Offset kept = std::exchange(counts[here], 0), kept_from = groups.begin[here];
-    outer_ = tabulated<Id>("GALE::kept_outer", kept, [&](Offset i) { return outer[groups.members(kept_from + i)]; });
+    outer_ = tabulated<Id>("GALE::kept_outer", kept, [&](Offset i) { return outer[groups.entries(kept_from + i)]; });
     all_kept = kept_of(part_, outer, outer_, first_id);
     sent.ids = room_by_rank<GlobalId>("GALE::sent_ids", counts);
     for (std::int64_t& count : counts) count *= corners();
     sent.vertices = room_by_rank<Index>("GALE::sent_vertices", counts);
     with_constant(corners(), [&](auto corners) {
       parallel_for("GALE::sent_cells", HostExecutionSpace(), sent.count(), [&](Offset i) {
-        const Offset t = outer[groups.members(i < kept_from ? i : i + kept)];
+        const Offset t = outer[groups.entries(i < kept_from ? i : i + kept)];
         sent.ids.entries(i) = all_kept.id_at(t);
         std::copy_n(part_.cells.data() + corners * t, int(corners), sent.vertices.entries.data() + corners * i);
       });

@@ -163,8 +163,7 @@ LocalGrid local_grid(const Communicator& ranks, const GridLayers& part, Offset m
     const Id below = part.layers.first - 1, above = part.layers.last;
     if (below >= 0) slab.add_ids(*local.grid, below, first - slab.count(below), ghosts);
     if (above < part.points[slab.axis]) slab.add_ids(*local.grid, above, first + vertices, ghosts);
-    local.ghosts = allocate<GlobalIds>("GALE::grid_ghosts", ghosts.size());
-    std::copy(ghosts.begin(), ghosts.end(), local.ghosts.data());
+    local.ghosts = array_of("GALE::grid_ghosts", ghosts);
   });
   return local;
 }

@@ -64,6 +64,15 @@ class LocalVertices {
     return number < ghost_count() && ghost_(number) == v ? number : -1;
   }
 
+  /// An array by local input ids: own(i) of the i-th one that it owns, and of_ghost(i) of the i-th ghost.
+  template <class T, class Own, class OfGhost>
+  Array<T, HostMemory> tabulated(const char* label, const Own& own, const OfGhost& of_ghost) const {
+    const auto all = allocate<Array<T, HostMemory>>(label, count());
+    parallel_for(label, HostExecutionSpace(), owned_count(), [&](Offset i) { all(owned(i)) = own(i); });
+    parallel_for(label, HostExecutionSpace(), ghost_count(), [&](Offset i) { all(ghost(i)) = of_ghost(i); });
+    return all;
+  }
+
  private:
   void merge(const GlobalIds& owned);
 

@@ -90,12 +90,6 @@ struct CountSimplices {
 };
 
 template <class Counts>
-struct CountOf {
-  Counts counts;
-  KOKKOS_FUNCTION Offset operator()(Offset cell) const { return counts(cell); }
-};
-
-template <class Counts>
 struct FirstBad {
   Counts counts;
   Offset none;
@@ -217,7 +211,7 @@ SplitCells<Corners, Memory> split_into(const Cells<Index, Memory>& cells, Offset
   parallel_for("GALE::count_simplices", space, count, CountSimplices<Splitter, Counts>{splitter, begin});
   const Offset bad = reduce_min("GALE::bad_cells", space, count, count, FirstBad<Counts>{begin, count});
   if (bad < count) refuse_cell(cells, bad, points, rules);
-  const Offset total = exclusive_scan("GALE::place_simplices", space, count, begin, CountOf<Counts>{begin});
+  const Offset total = exclusive_scan("GALE::place_simplices", space, count, begin, begin);
   require_ids(name, total);
   result.simplices = allocate<Simplices>("GALE::simplices", total);
   result.cells = allocate<Array<Id, Memory>>("GALE::cells_of_simplices", total);

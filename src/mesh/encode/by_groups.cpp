@@ -89,28 +89,20 @@ struct GroupPlaces {
 template <int corners, class Index>
 GroupPlaces places_of_groups(const Renumbered<corners, Index>& input, Offset count, Offset groups) {
   GroupPlaces places;
-  places.of_parts.resize(threads_for(count));
-  std::vector<char> bad(places.of_parts.size());
-  for_parts("GALE::count_cells", count, bad.size(), [&, input](int part, Offset first, Offset last) {
+  char some_bad = 0;
+  places.of_parts = of_parts("GALE::count_cells", count, [&, input](Offset first, Offset last) {
     std::vector<Id> mine(groups, 0);
-    bool some_bad = false;
-    for (Offset t = first; t < last;) {
-      for (const Offset end = piece_end(t, last); t < end; ++t) {
-        const Id lowest = input.lowest(t);
-        some_bad |= lowest < 0;
-        ++mine[std::max(lowest, 0) >> group_bits];
-      }
-    }
-    bad[part] = some_bad;
-    places.of_parts[part] = std::move(mine);
+    bool bad = false;
+    for_range(first, last, [&](Offset t) {
+      const Id lowest = input.lowest(t);
+      bad |= lowest < 0;
+      ++mine[std::max(lowest, 0) >> group_bits];
+    });
+    if (bad) atomic_write(&some_bad, char(1));
+    return mine;
   });
-  places.are_all = std::find(bad.begin(), bad.end(), 1) == bad.end();
-  Id at = 0;
-  for (Offset group = 0; group < groups; ++group) {
-    places.begin.push_back(at);
-    for (auto& mine : places.of_parts) at += std::exchange(mine[group], at);
-  }
-  places.begin.push_back(at);
+  places.are_all = some_bad == 0;
+  places.begin = begins_of_parts<Id>(places.of_parts, groups);
   return places;
 }
 
@@ -123,14 +115,12 @@ void deal(const Renumbered<corners, Index>& input, Offset count, GroupPlaces& pl
   const int parts = static_cast<int>(places.of_parts.size());
   for_parts("GALE::deal_cells", count, parts, [&, input, quads, from](int part, Offset first, Offset last) {
     Id* const next = places.of_parts[part].data();
-    for (Offset t = first; t < last;) {
-      for (const Offset end = piece_end(t, last); t < end; ++t) {
-        const Quad quad = input[t];
-        const Id to = next[quad.a >> group_bits]++;
-        quads[to] = quad;
-        from[to] = static_cast<Id>(t);
-      }
-    }
+    for_range(first, last, [&](Offset t) {
+      const Quad quad = input[t];
+      const Id to = next[quad.a >> group_bits]++;
+      quads[to] = quad;
+      from[to] = static_cast<Id>(t);
+    });
   });
 }
 
@@ -191,14 +181,8 @@ class ExternalRows {
 
   /// When all parts have counted.
   Csr<Id, HostMemory> allocate_rows() {
-    const auto begin = allocate<Array<Offset, HostMemory>>("GALE::external_begin", segments_ + Offset(1));
-    Offset at = 0;
-    for (Id segment = 0; segment < segments_; ++segment) {
-      begin(segment) = at;
-      for (auto& mine : next_) at += std::exchange(mine[segment], at);
-    }
-    begin(segments_) = at;
-    return {begin, allocate<Array<Id, HostMemory>>("GALE::external", at)};
+    const auto begin = begins_of_parts<Offset>(next_, segments_);
+    return {array_of("GALE::external_begin", begin), allocate<Array<Id, HostMemory>>("GALE::external", begin.back())};
   }
 
   void place(int part, Id begin, Id end, Id* to) {
@@ -238,21 +222,20 @@ EncodedCells encode_by_groups(const CellCorners<corners, Index, HostMemory>& giv
     begin = std::move(places.begin);
   }
   ExternalRows rows(sorted, vertex_begin, parts);
-  std::vector<char> bad(parts);
+  char some_bad = 0;
   for_parts("GALE::sort_cells", groups, parts, [&](int part, Offset first, Offset last) {
     GroupSorter<corners> sorter(sorted);
     rows.begin_part(part);
-    bool some_bad = false;
+    bool bad = false;
     for (Offset group = first; group < last; ++group) {
       stop_if_asked();
-      some_bad |= are_sorted ? !are_good<corners>(sorted.of_lowest.entries.data(), begin[group], begin[group + 1])
-                             : !sorter.sort(static_cast<Id>(group), begin[group], begin[group + 1]);
+      bad |= are_sorted ? !are_good<corners>(sorted.of_lowest.entries.data(), begin[group], begin[group + 1])
+                        : !sorter.sort(static_cast<Id>(group), begin[group], begin[group + 1]);
       rows.count(part, begin[group], begin[group + 1]);
     }
-    bad[part] = some_bad;
+    if (bad) atomic_write(&some_bad, char(1));
   });
-  if (std::find(bad.begin(), bad.end(), 1) != bad.end())
-    refuse_cells<corners, HostExecutionSpace, Index>(space, given, sorted, vertices);
+  if (some_bad != 0) refuse_cells<corners, HostExecutionSpace, Index>(space, given, sorted, vertices);
   const auto external = rows.allocate_rows();
   for_parts("GALE::external", groups, parts, [&](int part, Offset first, Offset last) {
     for (Offset group = first; group < last; ++group) {

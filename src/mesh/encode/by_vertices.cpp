@@ -1,7 +1,7 @@
 #include <gale/base/atomic.hpp>
-#include <gale/base/for_teams.hpp>
 #include <gale/base/group_by.hpp>
 #include <gale/base/ordered.hpp>
+#include <gale/base/parallel.hpp>
 #include <gale/base/transfer.hpp>
 #include <gale/mesh/encode/cells.hpp>
 

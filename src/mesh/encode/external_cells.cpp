@@ -1,7 +1,7 @@
 #include <gale/base/atomic.hpp>
 #include <gale/base/bits.hpp>
-#include <gale/base/for_teams.hpp>
 #include <gale/base/ordered.hpp>
+#include <gale/base/parallel.hpp>
 #include <gale/base/sort.hpp>
 #include <gale/base/transfer.hpp>
 #include <gale/mesh/encode/cells.hpp>

@@ -52,9 +52,8 @@ class ExchangePlan {
     Array<T, HostMemory> values;
     if (taken_counts_.empty()) return {{}, {0}};
     together(ranks, [&] {
-      values = allocate<Array<T, HostMemory>>("GALE::given_values", given_.count());
-      parallel_for("GALE::given_values", HostExecutionSpace(), given_.count(),
-                   [&](Offset i) { values(i) = value_of(given_.entries(i)); });
+      values =
+          tabulated<T>("GALE::given_values", given_.count(), [&](Offset i) { return value_of(given_.entries(i)); });
     });
     return fetch(ranks, values);
   }
@@ -78,9 +77,8 @@ class ExchangePlan {
   void fill(const Space& space, const T* from, const EntriesByRank<T>& fetched, T* to) const {
     copy_run(space, from + run_.place, to + run_.slot);
     if constexpr (is_device<Space>) {
-      const auto kept = allocate<Array<T, HostMemory>>("GALE::kept_values", kept_places_.extent(0));
-      parallel_for("GALE::kept_values", HostExecutionSpace(), kept.extent(0),
-                   [&](Offset i) { kept(i) = from[kept_places_(i)]; });
+      const auto kept =
+          tabulated<T>("GALE::kept_values", kept_places_.extent(0), [&](Offset i) { return from[kept_places_(i)]; });
       scatter(space, kept_slots_, kept, to);
     } else {
       parallel_for("GALE::kept_values", space, kept_slots_.extent(0),
@@ -140,18 +138,13 @@ ExchangePlan::ExchangePlan(const Ranks& ranks, const Run& run, const Array<const
   Array<Id, HostMemory> others;
   together(ranks, [&] {
     const int here = ranks.rank();
-    const ItemsByRank groups =
+    const EntriesByRank<Id> groups =
         group_by_rank(2, slots.extent(0), [&](Id i, const auto& visit) { visit(source(i) != here); });
-    kept_slots_ = allocate<Array<Id, HostMemory>>("GALE::kept_slots", groups.begin[1]);
-    kept_places_ = allocate<Array<Id, HostMemory>>("GALE::kept_places", groups.begin[1]);
-    parallel_for("GALE::kept_slots", HostExecutionSpace(), groups.begin[1], [&](Offset k) {
-      const Id i = groups.members(k);
-      kept_slots_(k) = slots(i);
-      kept_places_(k) = place(GlobalId(key(i)));
-    });
-    others = allocate<Array<Id, HostMemory>>("GALE::wanted_slots", groups.begin[2] - groups.begin[1]);
-    parallel_for("GALE::wanted_slots", HostExecutionSpace(), others.extent(0),
-                 [&](Offset i) { others(i) = groups.members(groups.begin[1] + i); });
+    const Offset kept = groups.count(0);
+    kept_slots_ = tabulated<Id>("GALE::kept_slots", kept, [&](Offset k) { return slots(groups.entries(k)); });
+    kept_places_ =
+        tabulated<Id>("GALE::kept_places", kept, [&](Offset k) { return place(GlobalId(key(groups.entries(k)))); });
+    others = tabulated<Id>("GALE::wanted_slots", groups.count(1), [&](Offset i) { return groups.entries(kept + i); });
   });
   const auto asked = collect_by_rank<GlobalId>(
       ranks, "GALE::wanted_values", others.extent(0), [&](Id i) { return source(others(i)); },

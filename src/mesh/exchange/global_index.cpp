@@ -36,8 +36,7 @@ DistinctIds without_repetitions(const GlobalIds& sorted, const Array<Id, HostMem
 DistinctIds distinct_ids(const Array<const GlobalId, HostMemory>& ids) {
   const Offset count = ids.extent(0);
   const auto places = iota("GALE::id_places", HostExecutionSpace(), count);
-  const auto sorted = allocate<GlobalIds>("GALE::sorted_ids", count);
-  parallel_for("GALE::sorted_ids", HostExecutionSpace(), count, [&](Offset i) { sorted(i) = ids(i); });
+  const GlobalIds sorted = tabulated<GlobalId>("GALE::sorted_ids", count, ids);
   const Offset descent = reduce_min("GALE::find_descent", HostExecutionSpace(), count - 1, count,
                                     [&](Offset i) { return sorted(i) > sorted(i + 1) ? i : count; });
   const Array<std::uint64_t, HostMemory> keys(reinterpret_cast<std::uint64_t*>(sorted.data()), count);
@@ -66,9 +65,7 @@ void keep_distinct(std::vector<GlobalId>& ids) {
 
 GlobalIds distinct_of(const std::string& label, std::vector<GlobalId> ids) {
   keep_distinct(ids);
-  const auto distinct = allocate<GlobalIds>(label, ids.size());
-  std::copy(ids.begin(), ids.end(), distinct.data());
-  return distinct;
+  return array_of(label, ids);
 }
 
 GlobalIndex::GlobalIndex(const Array<const GlobalId, HostMemory>& ascending, Lookups lookups) : ids_(ascending) {

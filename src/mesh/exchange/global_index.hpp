@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include <gale/base/counted_word.hpp>
+#include <gale/base/bits.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/export.hpp>
 
@@ -70,19 +70,17 @@ class GALE_EXPORT GlobalIndex {
 /// The ids that `index` lacks among those that visit(i, offer) offers for i in 0..n-1: ascending, none twice.
 template <class Visit>
 GlobalIds missing_ids(const GlobalIndex& index, Offset n, const Visit& visit) {
-  const int parts = threads_for(n);
-  std::vector<std::vector<GlobalId>> of_parts(parts);
-  for_parts("GALE::missing_ids", n, parts, [&](int part, Offset first, Offset last) {
+  const auto missing = of_parts("GALE::missing_ids", n, [&](Offset first, Offset last) {
+    std::vector<GlobalId> mine;
     for (Offset i = first; i < last; ++i) {
       visit(i, [&](GlobalId id) {
-        if (index.find(id) == no_id) of_parts[part].push_back(id);
+        if (index.find(id) == no_id) mine.push_back(id);
       });
     }
-    keep_distinct(of_parts[part]);
+    keep_distinct(mine);
+    return mine;
   });
-  std::vector<GlobalId> all;
-  for (const auto& some : of_parts) all.insert(all.end(), some.begin(), some.end());
-  return distinct_of("GALE::missing_ids", std::move(all));
+  return distinct_of("GALE::missing_ids", concatenated(missing));
 }
 
 }  // namespace gale::detail

@@ -34,6 +34,11 @@ class Homes {
 /// together.
 template <class Entry>
 class HomeTable {
+  struct Nobody {
+    template <class Handed>
+    void operator()(int, const Handed&, const Entry&) const {}
+  };
+
  public:
   HomeTable() = default;
 
@@ -41,9 +46,9 @@ class HomeTable {
   /// keeps of one. Where several ranks have an id, or one several times, the lowest rank's first counts, and
   /// visit_other(rank, handed, entry), which may change the entry, is called for each other one, on one thread of the
   /// home's.
-  template <class HandedOf, class EntryFrom, class VisitOther>
+  template <class HandedOf, class EntryFrom, class VisitOther = Nobody>
   HomeTable(const Ranks& ranks, const Array<const GlobalId, HostMemory>& ids, const HandedOf& handed_of,
-            const EntryFrom& entry_from, const VisitOther& visit_other)
+            const EntryFrom& entry_from, const VisitOther& visit_other = {})
       : homes_(ranks, ids.extent(0), ids) {
     struct Handed {
       GlobalId id;
@@ -56,10 +61,8 @@ class HomeTable {
         });
     const auto received = exchange(ranks, "GALE::known_entries", sent);
     together(ranks, [&] {
-      const auto all = allocate<GlobalIds>("GALE::known_ids", received.count());
-      parallel_for("GALE::known_ids", HostExecutionSpace(), all.extent(0),
-                   [&](Offset i) { all(i) = received.entries(i).id; });
-      const DistinctIds distinct = distinct_ids(all);
+      const DistinctIds distinct = distinct_ids(
+          tabulated<GlobalId>("GALE::known_ids", received.count(), [&](Offset i) { return received.entries(i).id; }));
       index_ = GlobalIndex(distinct.ids);
       entries_ = allocate<Array<Entry, HostMemory>>("GALE::home_entries", index_.count());
       const auto rank_of = [&](Offset at) {
@@ -79,12 +82,6 @@ class HomeTable {
     });
   }
 
-  /// Does so where nobody asks for others.
-  template <class HandedOf, class EntryFrom>
-  HomeTable(const Ranks& ranks, const Array<const GlobalId, HostMemory>& ids, const HandedOf& handed_of,
-            const EntryFrom& entry_from)
-      : HomeTable(ranks, ids, handed_of, entry_from, Nobody()) {}
-
   /// The entries of any ids, `otherwise` for those that it lacks.
   Array<Entry, HostMemory> find(const Ranks& ranks, const Array<const GlobalId, HostMemory>& ids,
                                 const Entry& otherwise = Entry()) const {
@@ -103,11 +100,6 @@ class HomeTable {
   const Entry& entry(Offset i) const { return entries_(i); }
 
  private:
-  struct Nobody {
-    template <class Handed>
-    void operator()(int, const Handed&, const Entry&) const {}
-  };
-
   Homes homes_;
   GlobalIndex index_;
   Array<Entry, HostMemory> entries_;

@@ -107,22 +107,14 @@ EntriesByRank<T> exchange_packed(const Ranks& ranks, const char* label, const En
   return unpacked;
 }
 
-/// Items by rank: those of rank r are members(begin[r]) to members(begin[r + 1] - 1), ascending.
-struct ItemsByRank {
-  std::vector<Offset> begin;
-  Array<Id, HostMemory> members;
-};
-
-/// Groups the items 0..items-1: visit_ranks(item, visit) calls visit(rank) for each rank of an item, the same ones each
-/// time. Unlike group_by it is for few groups of many items: no two threads count in one place, and an item that has
-/// one rank, as most have, is asked once.
+/// Groups the items 0..items-1, ascending: visit_ranks(item, visit) calls visit(rank) for each rank of an item, the
+/// same ones each time. Unlike group_by it is for few groups of many items: no two threads count in one place, and an
+/// item that has one rank, as most have, is asked once.
 template <class VisitRanks>
-ItemsByRank group_by_rank(int ranks, Offset items, const VisitRanks& visit_ranks) {
+EntriesByRank<Id> group_by_rank(int ranks, Offset items, const VisitRanks& visit_ranks) {
   constexpr std::uint8_t ask_again = 255;
   const auto only_rank = allocate<Array<std::uint8_t, HostMemory>>("GALE::only_rank", items);
-  const int parts = threads_for(items);
-  std::vector<std::vector<Offset>> places(parts);
-  for_parts("GALE::count_by_rank", items, parts, [&](int part, Offset first, Offset last) {
+  auto places = of_parts("GALE::count_by_rank", items, [&](Offset first, Offset last) {
     std::vector<Offset> counts(ranks, 0);
     for (Offset i = first; i < last; ++i) {
       int ranks_of_item = 0, last_rank = 0;
@@ -133,19 +125,14 @@ ItemsByRank group_by_rank(int ranks, Offset items, const VisitRanks& visit_ranks
       });
       only_rank(i) = ranks_of_item == 1 && last_rank < ask_again ? static_cast<std::uint8_t>(last_rank) : ask_again;
     }
-    places[part] = std::move(counts);
+    return counts;
   });
-  ItemsByRank groups{{0}, {}};
-  Offset total = 0;
-  for (int rank = 0; rank < ranks; ++rank) {
-    for (auto& of_part : places) total += std::exchange(of_part[rank], total);
-    groups.begin.push_back(total);
-  }
-  groups.members = allocate<Array<Id, HostMemory>>("GALE::items_by_rank", total);
-  for_parts("GALE::fill_by_rank", items, parts, [&](int part, Offset first, Offset last) {
+  EntriesByRank<Id> groups{{}, begins_of_parts<Offset>(places, ranks)};
+  groups.entries = allocate<Array<Id, HostMemory>>("GALE::items_by_rank", groups.count());
+  for_parts("GALE::fill_by_rank", items, static_cast<int>(places.size()), [&](int part, Offset first, Offset last) {
     std::vector<Offset>& next = places[part];
     for (Offset i = first; i < last; ++i) {
-      const auto put = [&](int rank) { groups.members(next[rank]++) = static_cast<Id>(i); };
+      const auto put = [&](int rank) { groups.entries(next[rank]++) = static_cast<Id>(i); };
       only_rank(i) == ask_again ? visit_ranks(static_cast<Id>(i), put) : put(only_rank(i));
     }
   });
@@ -159,12 +146,10 @@ EntriesByRank<T> collect_by_rank(const Ranks& ranks, const char* label, Offset i
                                  const EntryOf& entry_of, Array<Id, HostMemory>* members = nullptr) {
   EntriesByRank<T> sent;
   together(ranks, [&] {
-    const ItemsByRank groups =
+    const EntriesByRank<Id> groups =
         group_by_rank(ranks.size(), items, [&](Id i, const auto& visit) { visit(static_cast<int>(rank_of(i))); });
-    sent = {allocate<Array<T, HostMemory>>(label, items), groups.begin};
-    parallel_for("GALE::collect_by_rank", HostExecutionSpace(), items,
-                 [&](Offset k) { sent.entries(k) = entry_of(groups.members(k)); });
-    if (members != nullptr) *members = groups.members;
+    sent = {tabulated<T>(label, items, [&](Offset k) { return entry_of(groups.entries(k)); }), groups.begin};
+    if (members != nullptr) *members = groups.entries;
   });
   return sent;
 }

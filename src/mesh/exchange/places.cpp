@@ -2,6 +2,7 @@
 #include <utility>
 #include <vector>
 
+#include <gale/base/ordered.hpp>
 #include <gale/base/sort.hpp>
 #include <gale/mesh/exchange/home_table.hpp>
 #include <gale/mesh/exchange/messages.hpp>
@@ -41,12 +42,7 @@ void find_places(const Array<SimplexKey, HostMemory>& keys, const std::vector<Si
       stop_if_asked_at(i);
       const SimplexKey& key = keys(i);
       if (i == begin || key < keys(i - 1)) at = distinct.begin();
-      auto last = at;  // the key is in ever longer steps from where the one before was
-      for (Offset step = 1; last != distinct.end() && *last < key; step *= 2) {
-        at = last;
-        last += std::min(step, distinct.end() - last);
-      }
-      at = std::lower_bound(at, last, key);
+      at = gallop(at, distinct.end(), [&](const auto& place) { return *place < key; });
       places(i) = at - distinct.begin();
     }
   });
@@ -92,9 +88,8 @@ PlacesOfAll sums_before(const Ranks& ranks, const Array<const GlobalId, HostMemo
         return IdCount{ids(i), counts(i)};
       },
       [&](const auto& asked, const auto& answers) {
-        const auto all = allocate<GlobalIds>("GALE::received_ids", asked.count());
-        parallel_for("GALE::received_ids", HostExecutionSpace(), asked.count(),
-                     [&](Offset i) { all(i) = asked.entries(i).id; });
+        const auto all =
+            tabulated<GlobalId>("GALE::received_ids", asked.count(), [&](Offset i) { return asked.entries(i).id; });
         const auto by_id = distinct_ids(all).places;
         for (std::size_t i = 0; i < by_id.extent(0); ++i) {
           answers(by_id(i)) = here;
@@ -108,9 +103,7 @@ Array<GlobalId, HostMemory> occurrences(const Ranks& ranks, const Array<const Gl
                                         const Array<const GlobalId, HostMemory>& asked) {
   std::vector<GlobalId> numbers, counts;  // of different numbers here
   together(ranks, [&] {
-    const auto sorted = allocate<Array<std::uint64_t, HostMemory>>("GALE::sorted_numbers", all.extent(0));
-    parallel_for("GALE::sorted_numbers", HostExecutionSpace(), all.extent(0),
-                 [&](Offset i) { sorted(i) = static_cast<std::uint64_t>(all(i)); });
+    const auto sorted = tabulated<std::uint64_t>("GALE::sorted_numbers", all.extent(0), all);
     const auto places = iota("GALE::number_places", HostExecutionSpace(), all.extent(0));
     stable_sort_by_key(HostExecutionSpace(), sorted, places);
     for (std::size_t i = 0; i < sorted.extent(0); ++i) {

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include <gale/base/error.hpp>
-#include <gale/base/fresh_memory.hpp>
 #include <gale/base/memory.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/mesh/numbering/enumerate.hpp>

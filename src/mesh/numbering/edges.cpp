@@ -28,19 +28,14 @@ struct MiddleVertices {
 template <class Memory>
 struct HigherNeighbours {
   Simplices<Memory> simplices;
-  Borrowed<Offset, Memory> middle_begin;
-  Borrowed<Id, Memory> middle;
-
-  HigherNeighbours(const Simplices<Memory>& all, const MiddleStars<Memory>& stars)
-      : simplices(all), middle_begin(stars.offsets), middle(stars.entries) {}
+  MiddleStars<Memory> stars;
 
   template <class Visit>
   KOKKOS_FUNCTION void operator()(Id vertex, const Visit& visit) const {
     for (Id t = simplices.cell_begin(vertex); t < simplices.cell_begin(vertex + 1); ++t) {
       for (int corner = 1; corner <= simplices.dimension; ++corner) visit(simplices.cells(t, corner));
     }
-    for (Offset i = middle_begin(vertex); i < middle_begin(vertex + 1); ++i) {
-      const Id t = middle(i);
+    for (const Id t : stars.row(vertex)) {
       if (simplices.cells(t, 1) == vertex) visit(simplices.cells(t, 2));
       visit(simplices.cells(t, 3));
     }
@@ -63,26 +58,6 @@ struct EdgesOfMany {
   }
 };
 
-/// The higher vertex of an edge.
-template <class Memory>
-struct HigherVertex {
-  Simplices<Memory> simplices;
-
-  KOKKOS_FUNCTION Id operator()(Id edge) const { return simplices.edge_high(edge); }
-};
-
-/// Makes of how many edges each vertex has where they begin.
-template <class Space>
-Csr<Id, MemoryOf<Space>, Id> edges_with(const Space& space, const Array<Id, MemoryOf<Space>>& count) {
-  const Offset vertices = static_cast<Offset>(count.extent(0)) - 1;
-  const Offset total = reduce_sum(
-      "GALE::total_edges", space, vertices, KOKKOS_LAMBDA(Offset v) { return Offset(count(v)); });
-  require_ids("edges", total);
-  exclusive_scan(
-      "GALE::scan_edges", space, vertices, count, KOKKOS_LAMBDA(Offset v) { return count(v); });
-  return {count, allocate<Array<Id, MemoryOf<Space>>>("GALE::edge_high", total)};
-}
-
 }  // namespace
 
 template <class Space>
@@ -92,11 +67,11 @@ MiddleStars<MemoryOf<Space>> find_middle_stars(const Space& space, const Simplic
 }
 
 template <class Space>
-Csr<Id, MemoryOf<Space>, Id> edges_by_lanes(const Space& space, const Simplices<MemoryOf<Space>>& simplices,
-                                            const MiddleStars<MemoryOf<Space>>& stars) {
+void enumerate_edges(const Space& space, const Simplices<MemoryOf<Space>>& simplices,
+                     const MiddleStars<MemoryOf<Space>>& stars, SimplexTables& tables) {
   using Memory = MemoryOf<Space>;
   const Offset vertices = simplices.cell_begin.extent(0) - 1;
-  const HigherNeighbours<Memory> candidates(simplices, stars);
+  const HigherNeighbours<Memory> candidates{simplices, stars};
   const auto count = allocate<Array<Id, Memory>>("GALE::edge_begin", vertices + 1);
   parallel_for(
       "GALE::count_edges", space, vertices, KOKKOS_LAMBDA(Offset v) {
@@ -104,14 +79,13 @@ Csr<Id, MemoryOf<Space>, Id> edges_by_lanes(const Space& space, const Simplices<
         candidates(static_cast<Id>(v), [&](Id id) { few.insert(id); });
         count(v) = few.size();
       });
-  const bool some_have_many = reduce_min(
-                                  "GALE::find_many_edges", space, vertices, Id(0),
-                                  KOKKOS_LAMBDA(Offset v) { return count(v); }) == FewDistinct::too_many;
+  const bool some_have_many =
+      reduce_min("GALE::find_many_edges", space, vertices, Id(0), count) == FewDistinct::too_many;
   const auto many = some_have_many
                         ? SortedPairs<Space>(space, simplices.cells.extent(0), EdgesOfMany<Memory>{simplices, count})
                         : SortedPairs<Space>();
   many.write_counts(count);
-  const auto ends = edges_with(space, count);
+  const auto ends = rows_with(space, "edges", count);
   parallel_for(
       "GALE::write_edges", space, vertices, KOKKOS_LAMBDA(Offset v) {
         FewDistinct few;
@@ -119,13 +93,6 @@ Csr<Id, MemoryOf<Space>, Id> edges_by_lanes(const Space& space, const Simplices<
         for (Id i = 0; i < few.size(); ++i) ends.entries(ends.offsets(v) + i) = few[i];
       });
   many.write(ends.offsets, ends.entries);
-  return ends;
-}
-
-template <class Space>
-void enumerate_edges(const Space& space, const Simplices<MemoryOf<Space>>& simplices,
-                     const MiddleStars<MemoryOf<Space>>& stars, SimplexTables& tables) {
-  const auto ends = edges_by_lanes(space, simplices, stars);
   const auto low = row_of_entries(space, "GALE::edge_low", ends.offsets, ends.entries.extent(0));
   tables.edge_begin = ends.offsets;
   tables.edge_low = low;
@@ -135,13 +102,22 @@ void enumerate_edges(const Space& space, const Simplices<MemoryOf<Space>>& simpl
 template <class Space>
 void sort_edges_by_higher(const Space& space, const Simplices<MemoryOf<Space>>& simplices, SimplexTables& tables) {
   const Offset vertices = simplices.edge_begin.extent(0) - 1, edges = simplices.edge_high.extent(0);
-  const auto lower =
-      group_by_key<Id>("GALE::lower_edges", space, edges, vertices, HigherVertex<MemoryOf<Space>>{simplices});
+  const auto lower = group_by_key<Id>("GALE::lower_edges", space, edges, vertices, simplices.edge_high);
   sort_rows(space, "GALE::sort_lower", lower);
   tables.lower_begin = lower.offsets;
   tables.lower_edges = lower.entries;
   tables.longest_list = std::max({longest_row(space, lower.offsets), longest_row(space, simplices.edge_begin),
                                   longest_row(space, simplices.cell_begin)});
+}
+
+template <class Space>
+Csr<Id, MemoryOf<Space>, Id> rows_with(const Space& space, const std::string& name,
+                                       const Array<Id, MemoryOf<Space>>& count) {
+  const Offset rows = static_cast<Offset>(count.extent(0)) - 1;
+  const Offset total = reduce_sum(("GALE::total_" + name).c_str(), space, rows, count);
+  require_ids(name.c_str(), total);
+  exclusive_scan(("GALE::scan_" + name).c_str(), space, rows, count, count);
+  return {count, allocate<Array<Id, MemoryOf<Space>>>("GALE::" + name, total)};
 }
 
 template <class Space>
@@ -164,11 +140,11 @@ Id longest_row(const Space& space, const Borrowed<Id, MemoryOf<Space>>& begin) {
 
 #define GALE_INSTANTIATE(Space)                                                                                       \
   template MiddleStars<MemoryOf<Space>> find_middle_stars(const Space&, const Simplices<MemoryOf<Space>>&);           \
-  template Csr<Id, MemoryOf<Space>, Id> edges_by_lanes(const Space&, const Simplices<MemoryOf<Space>>&,               \
-                                                       const MiddleStars<MemoryOf<Space>>&);                          \
   template void enumerate_edges(const Space&, const Simplices<MemoryOf<Space>>&, const MiddleStars<MemoryOf<Space>>&, \
                                 SimplexTables&);                                                                      \
   template void sort_edges_by_higher(const Space&, const Simplices<MemoryOf<Space>>&, SimplexTables&);                \
+  template Csr<Id, MemoryOf<Space>, Id> rows_with(const Space&, const std::string&,                                   \
+                                                  const Array<Id, MemoryOf<Space>>&);                                 \
   template Array<Id, MemoryOf<Space>> row_of_entries(const Space&, const char*, const Borrowed<Id, MemoryOf<Space>>&, \
                                                      Offset);                                                         \
   template Id longest_row(const Space&, const Borrowed<Id, MemoryOf<Space>>&)

@@ -32,14 +32,8 @@ MiddleStars<MemoryOf<Space>> find_middle_stars(const Space& space, const Simplic
 void enumerate_by_segments(const EncodedMesh<HostMemory>& mesh, const Borrowed<Id, HostMemory>& cell_begin,
                            bool triangles, SimplexTables& tables);
 
-/// The higher end of each edge, by the lower one, as a device finds them: lanes count those of a vertex in memory of
-/// their own and find them again to write them; where they are too many, they are sorted. `simplices` has the
-/// cells.
-template <class Space>
-Csr<Id, MemoryOf<Space>, Id> edges_by_lanes(const Space& space, const Simplices<MemoryOf<Space>>& simplices,
-                                            const MiddleStars<MemoryOf<Space>>& stars);
-
-/// Makes edge_begin, edge_low and edge_high as a device does. `simplices` has the cells.
+/// Makes edge_begin, edge_low and edge_high as a device does: lanes count the higher ends of a vertex's edges in memory
+/// of their own and find them again to write them; where they are too many, they are sorted. `simplices` has the cells.
 template <class Space>
 void enumerate_edges(const Space& space, const Simplices<MemoryOf<Space>>& simplices,
                      const MiddleStars<MemoryOf<Space>>& stars, SimplexTables& tables);
@@ -56,6 +50,12 @@ void enumerate_triangles(const Space& space, const Simplices<MemoryOf<Space>>& s
 /// Makes triangle_begin and triangle_apex of triangles that are the mesh's cells. `simplices` has these and the edges.
 template <class Space>
 void find_triangles_of_edges(const Space& space, const Simplices<MemoryOf<Space>>& simplices, SimplexTables& tables);
+
+/// Makes of how many entries each row has where they begin, in the same memory, and room for the entries. `name` says
+/// what these are, e.g. "edges". The last place of `count` is for the end.
+template <class Space>
+Csr<Id, MemoryOf<Space>, Id> rows_with(const Space& space, const std::string& name,
+                                       const Array<Id, MemoryOf<Space>>& count);
 
 /// The row of each entry, where rows begin at `begin`: e.g. edge_low from edge_begin.
 template <class Space>

@@ -27,15 +27,13 @@ struct Elsewhere {
 Elsewhere find_elsewhere(const HostTables& tables, const Id* input, bool triangles) {
   const Offset vertices = tables.edge_begin.extent(0) - 1;
   Elsewhere elsewhere;
-  elsewhere.has_all = allocate<Array<bool, HostMemory>>("GALE::has_all", vertices);
-  parallel_for("GALE::has_all", HostExecutionSpace(), vertices, [&](Offset v) {
+  elsewhere.has_all = tabulated<bool>("GALE::has_all", vertices, [&](Offset v) {
     const Id* const ends = tables.edge_high.data();
-    elsewhere.has_all(v) = std::all_of(ends + tables.edge_begin(v), ends + tables.edge_begin(v + 1),
-                                       [&](Id end) { return input[end] > input[v]; });
+    return std::all_of(ends + tables.edge_begin(v), ends + tables.edge_begin(v + 1),
+                       [&](Id end) { return input[end] > input[v]; });
   });
   // Empty where all vertices have all.
-  const bool none = reduce_sum("GALE::has_all", HostExecutionSpace(), vertices,
-                               [&](Offset v) { return elsewhere.has_all(v); }) == vertices;
+  const bool none = reduce_sum("GALE::has_all", HostExecutionSpace(), vertices, elsewhere.has_all) == vertices;
   const Offset edges = none ? 0 : tables.edge_high.extent(0);
   elsewhere.edges =
       group_by<Id>("GALE::edges_elsewhere", HostExecutionSpace(), edges, vertices, [&](Id edge, const auto& visit) {

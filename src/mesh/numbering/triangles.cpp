@@ -32,8 +32,8 @@ class UpperLink {
       joined_[b] |= bit(c) | bit(d);
       joined_[c] |= bit(d);
     }
-    for (Offset i = stars.offsets(vertex); i < stars.offsets(vertex + 1); ++i) {
-      const Quad quad = simplices.cell(stars.entries(i));
+    for (const Id t : stars.row(vertex)) {
+      const Quad quad = simplices.cell(t);
       if (quad.b != vertex) continue;
       const Id c = place_of(quad.c, 0);
       joined_[c] |= bit(place_of(quad.d, c));
@@ -111,12 +111,7 @@ void enumerate_triangles(const Space& space, const Simplices<MemoryOf<Space>>& s
                         ? SortedPairs<Space>(space, simplices.cells.extent(0), TrianglesOfMany<Memory>{simplices})
                         : SortedPairs<Space>();
   many.write_counts(begin);
-  const Offset total = reduce_sum(
-      "GALE::total_triangles", space, edges, KOKKOS_LAMBDA(Offset e) { return Offset(begin(e)); });
-  require_ids("triangles", total);
-  exclusive_scan(
-      "GALE::scan_triangles", space, edges, begin, KOKKOS_LAMBDA(Offset e) { return begin(e); });
-  const auto apex = allocate<Array<Id, Memory>>("GALE::triangle_apex", total);
+  const auto apex = rows_with(space, "triangles", begin).entries;
   parallel_for(
       "GALE::write_triangles", space, vertices, KOKKOS_LAMBDA(Offset v) {
         if (!UpperLink::is_for(simplices, v)) return;

@@ -2,6 +2,7 @@
 
 #include <gale/base/ordered.hpp>
 #include <gale/relations/faces.hpp>
+#include <gale/relations/kernels/cofaces.hpp>
 
 // What cofaces.hpp finds, where some lists are long: nothing is looked through that may be. Simplices
 // around a simplex differ from it by vertices that are neighbours of all of its own. So those of that vertex are tried

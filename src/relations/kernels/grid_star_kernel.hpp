@@ -43,11 +43,6 @@ class GridStarKernel {
 
   /// Calls use(functor) with what Kokkos is to run on its teams: one for each level of scratch memory.
   template <class Use>
-  friend void with_functor(const GridStarKernel& kernel, const Use& use) {
-    kernel.use_on_teams(use);
-  }
-
-  template <class Use>
   void use_on_teams(const Use& use) const {
     at_scratch_level<Memory>(scratch_level, [&](auto level) { use(OnTeams<level>{*this}); });
   }

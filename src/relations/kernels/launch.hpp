@@ -49,12 +49,6 @@ void at_scratch_level(int level, const Use& use) {
   use(std::integral_constant<int, 1>());
 }
 
-/// Calls use(functor) with what Kokkos is to run: the kernel itself, unless it knows better.
-template <class Kernel, class Use>
-void with_functor(const Kernel& kernel, const Use& use) {
-  use(kernel);
-}
-
 /// Starts a kernel on `teams` teams, one a segment of the batch, of that shape each on a device and of one
 /// thread on the host, in the scratch memory that its sizes ask for. Returns at once on a device: fence `instance`
 /// before you read what it leaves. Not from several threads at once on the host, where HostTeam is for that. Throws
@@ -72,8 +66,7 @@ void launch(const Space& instance, const Kernel& kernel, int teams, TeamShape sh
   at_scratch_level<MemoryOf<Space>>(kernel.scratch_level, [&](auto level) {
     policy.set_scratch_size(level, Kokkos::PerTeam(static_cast<int>(bytes)));
   });
-  with_functor(kernel,
-               [&](const auto& functor) { Kokkos::parallel_for(kernel.label(), overlapping(policy), functor); });
+  kernel.use_on_teams([&](const auto& functor) { Kokkos::parallel_for(kernel.label(), overlapping(policy), functor); });
 }
 
 }  // namespace gale

@@ -100,8 +100,11 @@ class RowKernel {
   /// Calls use(functor) with what Kokkos is to run on its teams: one for each level of scratch memory, see
   /// team::scratch, and for each way of finding entries.
   template <class Use>
-  friend void with_functor(const RowKernel& kernel, const Use& use) {
-    kernel.use_on_teams(use);
+  void use_on_teams(const Use& use) const {
+    if constexpr (detail::can_bisect(relation)) {
+      if (bisects()) return use_at_level<detail::Bisect>(use);
+    }
+    use_at_level<detail::LookThrough>(use);
   }
 
   template <int level, class Search>
@@ -155,14 +158,6 @@ class RowKernel {
  private:
   /// Has the mesh vertices of so many simplices that bisection finds a row's entries faster?
   bool bisects() const { return simplices.longest_list > detail::longest_looked_through; }
-
-  template <class Use>
-  void use_on_teams(const Use& use) const {
-    if constexpr (detail::can_bisect(relation)) {
-      if (bisects()) return use_at_level<detail::Bisect>(use);
-    }
-    use_at_level<detail::LookThrough>(use);
-  }
 
   template <class Search, class Use>
   void use_at_level(const Use& use) const {

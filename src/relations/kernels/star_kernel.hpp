@@ -79,14 +79,13 @@ class StarKernel : public detail::StarRequest<Memory, cell_corners> {
   /// Calls use(functor) with what Kokkos is to run on its teams. Each has one way, one kind of scratch memory: one
   /// functor for all would take the registers of the greediest, and a third fewer teams would run at a time.
   template <class Use>
-  friend void with_functor(const StarKernel& kernel, const Use& use) {
-    is_small(kernel.sizes) ? kernel.template use_on_teams<detail::BitStars>(use)
-                           : kernel.template use_on_teams<detail::HashedStars>(use);
+  void use_on_teams(const Use& use) const {
+    is_small(this->sizes) ? use_way<detail::BitStars>(use) : use_way<detail::HashedStars>(use);
   }
 
  private:
   template <template <class, class, int> class Stars, class Use>
-  void use_on_teams(const Use& use) const {
+  void use_way(const Use& use) const {
     at_scratch_level<Memory>(scratch_level,
                              [&](auto level) { use(detail::StarTeams<Stars, Memory, corners, level>{*this}); });
   }

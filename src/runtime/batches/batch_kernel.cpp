@@ -24,15 +24,10 @@ std::vector<StarSizes> bounds_of(const Mesh& mesh, const SegmentKernel<Memory>& 
 /// What suffices for every segment.
 template <class Memory>
 StarSizes greatest_bound(const Mesh& mesh, const SegmentKernel<Memory>& kernel) {
-  const int threads = threads_for(mesh.segments());
-  std::vector<StarSizes> greatest(threads);
-  for_parts("GALE::greatest_bound", mesh.segments(), threads, [&](int thread, Offset begin, Offset end) {
+  const auto greatest = of_parts("GALE::greatest_bound", mesh.segments(), [&](Offset begin, Offset end) {
     StarSizes sizes;
-    for (Offset s = begin; s < end; ++s) {
-      stop_if_asked_at(s);
-      sizes = larger(sizes, kernel.bound(static_cast<Id>(s)));
-    }
-    greatest[thread] = sizes;
+    for_range(begin, end, [&](Offset s) { sizes = larger(sizes, kernel.bound(static_cast<Id>(s))); });
+    return sizes;
   });
   return std::accumulate(greatest.begin(), greatest.end(), StarSizes(), larger);
 }

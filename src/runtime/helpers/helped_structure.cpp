@@ -12,8 +12,6 @@ namespace {
 /// Segments for each helper, at least: fewer take no longer than starting it.
 constexpr Id worth_a_thread = 8;
 
-}  // namespace
-
 /// The cores that a sweep takes for helpers since it leaves them idle, as long as this lives. Sweeps that run at once,
 /// also of other structures, share them.
 class IdleCores {
@@ -44,14 +42,56 @@ class IdleCores {
 class HelpedStructure : public InlineStructure {
  public:
   /// Throws gale::Error for a number of cores below 0.
-  HelpedStructure(const Mesh& mesh, RelationSet relations, const StructureOptions& options);
+  HelpedStructure(const Mesh& mesh, RelationSet relations, const StructureOptions& options)
+      : InlineStructure(mesh, relations, Way::helpers), options_(options) {
+    cores(options);  // refuses what isn't a number of cores
+  }
 
  protected:
-  std::unique_ptr<Sweep> begin_sweep(RelationSet wanted, int consumers, const SegmentBody& body) override;
-  void add_statistics(StructureStatistics& all) const override;
+  std::unique_ptr<Sweep> begin_sweep(RelationSet wanted, int consumers, const SegmentBody& body) override {
+    const int all = cores(options_);
+    auto idle = std::make_unique<IdleCores>(all, consumers, mesh().owned_segments().size() / worth_a_thread);
+    if (idle->count() == 0) return InlineStructure::begin_sweep(wanted, consumers, body);
+    const MakeWorker make = [this, wanted](ConsumerStatistics& statistics, int kept) {
+      return std::make_unique<SegmentWorker>(mesh(), wanted, statistics, kept);
+    };
+    return std::make_unique<HelpedTurns>(*this, std::move(idle), consumers, make, host_memory(options_) / all);
+  }
+
+  void add_statistics(StructureStatistics& all) const override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    all.helpers = helpers_;
+    all.host_bytes = host_bytes_;
+  }
 
  private:
-  class HelpedTurns;
+  /// A sweep with helpers: as many turns as segments; which one is read in a turn shows then.
+  class HelpedTurns : public Sweep {
+   public:
+    HelpedTurns(HelpedStructure& structure, std::unique_ptr<IdleCores> idle, int consumers, const MakeWorker& make,
+                std::size_t budget_of_each)
+        : Sweep(consumers),
+          structure_(structure),
+          idle_(std::move(idle)),
+          helped_(structure.mesh().owned_segments(), consumers, make, idle_->count(), make, budget_of_each) {}
+
+    void visit(int consumer, Id, const SegmentBody& body) override {
+      helped_.read_next(consumer, [&](const SegmentRows& rows) { body(consumer, rows); });
+    }
+
+    void end() override {
+      helped_.end();
+      statistics = helped_.of_consumers();
+      const std::lock_guard<std::mutex> lock(structure_.mutex_);
+      structure_.helpers_ += helped_.of_helpers();
+      structure_.host_bytes_ = std::max(structure_.host_bytes_, helped_.block_bytes());
+    }
+
+   private:
+    HelpedStructure& structure_;
+    const std::unique_ptr<IdleCores> idle_;
+    HelpedSweep helped_;
+  };
 
   const StructureOptions options_;
   mutable std::mutex mutex_;
@@ -59,55 +99,7 @@ class HelpedStructure : public InlineStructure {
   std::size_t host_bytes_ = 0;
 };
 
-/// A sweep with helpers: as many turns as segments; which one is read in a turn shows then.
-class HelpedStructure::HelpedTurns : public Sweep {
- public:
-  HelpedTurns(HelpedStructure& structure, std::unique_ptr<IdleCores> idle, int consumers, const MakeWorker& make,
-              std::size_t budget_of_each)
-      : Sweep(consumers),
-        structure_(structure),
-        idle_(std::move(idle)),
-        helped_(structure.mesh().owned_segments(), consumers, make, idle_->count(), make, budget_of_each) {}
-
-  void visit(int consumer, Id, const SegmentBody& body) override {
-    helped_.read_next(consumer, [&](const SegmentRows& rows) { body(consumer, rows); });
-  }
-
-  void end() override {
-    helped_.end();
-    statistics = helped_.of_consumers();
-    const std::lock_guard<std::mutex> lock(structure_.mutex_);
-    structure_.helpers_ += helped_.of_helpers();
-    structure_.host_bytes_ = std::max(structure_.host_bytes_, helped_.block_bytes());
-  }
-
- private:
-  HelpedStructure& structure_;
-  const std::unique_ptr<IdleCores> idle_;
-  HelpedSweep helped_;
-};
-
-HelpedStructure::HelpedStructure(const Mesh& mesh, RelationSet relations, const StructureOptions& options)
-    : InlineStructure(mesh, relations, Way::helpers), options_(options) {
-  cores(options);  // refuses what isn't a number of cores
-}
-
-std::unique_ptr<Structure::Sweep> HelpedStructure::begin_sweep(RelationSet wanted, int consumers,
-                                                               const SegmentBody& body) {
-  const int all = cores(options_);
-  auto idle = std::make_unique<IdleCores>(all, consumers, mesh().owned_segments().size() / worth_a_thread);
-  if (idle->count() == 0) return InlineStructure::begin_sweep(wanted, consumers, body);
-  const MakeWorker make = [this, wanted](ConsumerStatistics& statistics, int kept) {
-    return std::make_unique<SegmentWorker>(mesh(), wanted, statistics, kept);
-  };
-  return std::make_unique<HelpedTurns>(*this, std::move(idle), consumers, make, host_memory(options_) / all);
-}
-
-void HelpedStructure::add_statistics(StructureStatistics& all) const {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  all.helpers = helpers_;
-  all.host_bytes = host_bytes_;
-}
+}  // namespace
 
 std::unique_ptr<Structure> make_helped_structure(const Mesh& mesh, RelationSet relations,
                                                  const StructureOptions& options) {

@@ -1,17 +1,15 @@
 #include <algorithm>
-#include <chrono>
 #include <vector>
 
-#include <gale/relations/face_reader.hpp>
 #include <gale/relations/kernels/segment_kernel.hpp>
+#include <gale/runtime/segment_consumer.hpp>
 #include <gale/runtime/ways.hpp>
 
 namespace gale::detail {
 
 SegmentRows compute_counted(HostWorker& worker, Id segment, ConsumerStatistics& statistics) {
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch computing(statistics.seconds_computing);
   const SegmentRows rows = worker.compute(segment);
-  statistics.seconds_computing += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   ++statistics.segments_computed;
   return rows;
 }
@@ -79,32 +77,20 @@ class RecentBlocks {
 };
 
 /// A consumer that computes what it misses and keeps the blocks of the segments that it read last.
-class InlineConsumer : public Consumer {
+class InlineConsumer : public SegmentConsumer {
  public:
   InlineConsumer(const Mesh& mesh, RelationSet relations, std::shared_ptr<ConsumerLog> log)
-      : mesh_(mesh), relations_(relations), faces_(mesh, relations & face_relations), log_(std::move(log)) {
+      : SegmentConsumer(mesh, relations, std::move(log)) {
     for (const RelationSet kernel : kernels_for(relations - face_relations, mesh.dimension()))
       blocks_.emplace_back(mesh, kernel);
   }
-  ~InlineConsumer() override { log_->add(statistics_); }
-
- protected:
-  SegmentRows load(RelationSet one, Id simplex) override {
-    require_preconditioned(relations_, one);
-    const int dimension = row_dimension(one);
-    require_simplex(mesh_, dimension, simplex);
-    if (face_relations.contains(one)) return faces_.row(members_of(one).front(), simplex);
-    const auto has = [one](const RecentBlocks& blocks) { return blocks.relations().contains(one); };
-    return std::find_if(blocks_.begin(), blocks_.end(), has)
-        ->rows_of(one, mesh_.segment_of(dimension, simplex), statistics_);
-  }
 
  private:
-  const Mesh mesh_;
-  const RelationSet relations_;
-  FaceReader faces_;
-  const std::shared_ptr<ConsumerLog> log_;
-  ConsumerStatistics statistics_;
+  SegmentRows rows_of(RelationSet one, Id segment) override {
+    const auto has = [one](const RecentBlocks& blocks) { return blocks.relations().contains(one); };
+    return std::find_if(blocks_.begin(), blocks_.end(), has)->rows_of(one, segment, statistics_);
+  }
+
   std::vector<RecentBlocks> blocks_;  ///< by kernel
 };
 

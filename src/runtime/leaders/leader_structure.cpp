@@ -4,12 +4,12 @@
 #include <utility>
 #include <vector>
 
-#include <gale/relations/face_reader.hpp>
 #include <gale/relations/kernels/segment_kernel.hpp>
 #include <gale/relations/preconditioning.hpp>
 #include <gale/runtime/batches/host_worker.hpp>
 #include <gale/runtime/defaults.hpp>
 #include <gale/runtime/leaders/leader.hpp>
+#include <gale/runtime/segment_consumer.hpp>
 #include <gale/runtime/ways.hpp>
 
 namespace gale::detail {
@@ -38,8 +38,6 @@ std::unique_ptr<Leader> make_leader(const Mesh& mesh, RelationSet relations, con
   }
   return std::make_unique<Leader>(mesh, leader, std::move(workers));
 }
-
-}  // namespace
 
 /// The leaders of a structure, one a queue. Consumers share it, so that one that the structure's end surprises finds
 /// everything in place.
@@ -130,144 +128,118 @@ class SweepReader {
   Id read_ = 0;  ///< segments of the lease's arena
 };
 
-namespace {
-
 /// A consumer that asks leaders for what it misses, and waits.
-class RequestingConsumer : public Consumer {
+class RequestingConsumer : public SegmentConsumer {
  public:
   RequestingConsumer(std::shared_ptr<Leaders> leaders, std::shared_ptr<ConsumerLog> log)
-      : leaders_(std::move(leaders)),
-        log_(std::move(log)),
-        faces_(leaders_->mesh(), leaders_->relations() & face_relations) {}
-  ~RequestingConsumer() override { log_->add(statistics_); }
+      : SegmentConsumer(leaders->mesh(), leaders->relations(), std::move(log)), leaders_(std::move(leaders)) {}
 
- protected:
-  SegmentRows load(RelationSet one, Id simplex) override {
-    const Mesh& mesh = leaders_->mesh();
-    const int dimension = row_dimension(one);
-    require_preconditioned(leaders_->relations(), one);
-    require_simplex(mesh, dimension, simplex);
-    if (face_relations.contains(one)) return faces_.row(members_of(one).front(), simplex);
+ private:
+  SegmentRows rows_of(RelationSet one, Id segment) override {
     Leader& leader = leaders_->of(one);
-    const Id segment = mesh.segment_of(dimension, simplex);
     Lease& lease = leases_[all_relations.contains(one) ? static_cast<int>(members_of(one).front()) : relation_count];
     lease.release();
     lease = leader.acquire(segment, false, statistics_);
-    SegmentRows rows(segment, mesh.intervals_of(segment));
+    SegmentRows rows(segment, mesh_.intervals_of(segment));
     leader.add_rows(lease, rows);
     return rows;
   }
 
- private:
   const std::shared_ptr<Leaders> leaders_;
-  const std::shared_ptr<ConsumerLog> log_;
-  FaceReader faces_;
-  ConsumerStatistics statistics_;
   Lease leases_[relation_count + 1];  ///< pins on the block read last in each relation; the last is that of links
 };
-
-}  // namespace
 
 /// Way::leaders: consumers ask, leaders have batches computed, and run ahead of sweeps.
 class LeaderStructure : public Structure {
  public:
   /// Throws OutOfMemory where the device has no room for what the leaders need.
-  LeaderStructure(const Mesh& mesh, RelationSet relations, const StructureOptions& options);
+  LeaderStructure(const Mesh& mesh, RelationSet relations, const StructureOptions& options)
+      : Structure(mesh, relations, Way::leaders), leaders_(std::make_shared<Leaders>(mesh, relations, options)) {}
 
   /// Ends the leaders. A consumer that still waits gets a gale::Error.
-  ~LeaderStructure() override;
+  ~LeaderStructure() override { leaders_->end(); }
 
-  std::unique_ptr<Consumer> consumer() override;
+  std::unique_ptr<Consumer> consumer() override { return std::make_unique<RequestingConsumer>(leaders_, log()); }
 
  protected:
-  std::unique_ptr<Sweep> begin_sweep(RelationSet wanted, int consumers, const SegmentBody& body) override;
-  void add_statistics(StructureStatistics& all) const override;
+  std::unique_ptr<Sweep> begin_sweep(RelationSet wanted, int consumers, const SegmentBody&) override {
+    return std::make_unique<LeaderSweep>(*this, wanted, consumers);
+  }
+
+  void add_statistics(StructureStatistics& all) const override {
+    for (const auto& leader : leaders_->all()) {
+      all.leaders.push_back(leader->statistics());
+      all.host_bytes += leader->host_bytes();
+      all.device_bytes += leader->device_bytes();
+      const std::int64_t on_host = all.leaders.back().segments_on_host;
+      if (on_host == 0) continue;
+      all.notices.push_back(std::to_string(on_host) + " segments of " + name_of(leader->relations()) +
+                            " didn't fit the device's memory: the host computed them");
+    }
+  }
 
  private:
-  class LeaderSweep;
+  /// Has the leaders run ahead as long as it lives; a sweep inside or beside another asks for each segment instead.
+  class LeaderSweep : public Sweep {
+   public:
+    LeaderSweep(LeaderStructure& structure, RelationSet wanted, int consumers)
+        : Sweep(consumers),
+          mesh_(structure.mesh()),
+          faces_(wanted & face_relations),
+          leaders_(structure.leaders_->some_of(wanted)),
+          sweeping_(structure.sweeping_),
+          runs_ahead_(!structure.sweeping_.exchange(true)),
+          readers_(consumers) {
+      if (!runs_ahead_) return;
+      for (Leader* const leader : leaders_) leader->begin_sweep();
+    }
+
+    ~LeaderSweep() override {
+      readers_.clear();  // readers tell the leaders what they have read
+      if (!runs_ahead_) return;
+      for (Leader* const leader : leaders_) leader->end_sweep();
+      sweeping_ = false;
+    }
+
+    void visit(int consumer, Id segment, const SegmentBody& body) override {
+      Reader& reader = readers_[consumer];
+      if (!reader.ready) prepare(reader);
+      SegmentRows rows(segment, mesh_.intervals_of(segment));
+      for (auto& blocks : reader.blocks) {
+        blocks.leader().add_rows(blocks.read(segment, statistics[consumer]), rows);
+      }
+      if (reader.faces) reader.faces->compute(rows);
+      body(consumer, rows);
+      for (auto& blocks : reader.blocks) blocks.done();
+    }
+
+   private:
+    /// What one consumer works with; made by its thread.
+    struct alignas(64) Reader {
+      bool ready = false;
+      std::vector<SweepReader> blocks;    ///< one for each leader
+      std::unique_ptr<HostWorker> faces;  ///< if face relations are wanted
+    };
+
+    void prepare(Reader& reader) {
+      for (Leader* const leader : leaders_) reader.blocks.emplace_back(*leader, runs_ahead_);
+      if (!faces_.empty()) reader.faces = std::make_unique<HostWorker>(mesh_, faces_);
+      reader.ready = true;
+    }
+
+    const Mesh& mesh_;
+    const RelationSet faces_;
+    const std::vector<Leader*> leaders_;
+    std::atomic<bool>& sweeping_;
+    const bool runs_ahead_;
+    std::vector<Reader> readers_;
+  };
 
   const std::shared_ptr<Leaders> leaders_;
   std::atomic<bool> sweeping_{false};
 };
 
-/// Has the leaders run ahead as long as it lives; a sweep inside or beside another asks for each segment instead.
-class LeaderStructure::LeaderSweep : public Sweep {
- public:
-  LeaderSweep(LeaderStructure& structure, RelationSet wanted, int consumers)
-      : Sweep(consumers),
-        mesh_(structure.mesh()),
-        faces_(wanted & face_relations),
-        leaders_(structure.leaders_->some_of(wanted)),
-        sweeping_(structure.sweeping_),
-        runs_ahead_(!structure.sweeping_.exchange(true)),
-        readers_(consumers) {
-    if (!runs_ahead_) return;
-    for (Leader* const leader : leaders_) leader->begin_sweep();
-  }
-
-  ~LeaderSweep() override {
-    readers_.clear();  // readers tell the leaders what they have read
-    if (!runs_ahead_) return;
-    for (Leader* const leader : leaders_) leader->end_sweep();
-    sweeping_ = false;
-  }
-
-  void visit(int consumer, Id segment, const SegmentBody& body) override {
-    Reader& reader = readers_[consumer];
-    if (!reader.ready) prepare(reader);
-    SegmentRows rows(segment, mesh_.intervals_of(segment));
-    for (auto& blocks : reader.blocks) {
-      blocks.leader().add_rows(blocks.read(segment, statistics[consumer]), rows);
-    }
-    if (reader.faces) reader.faces->compute(rows);
-    body(consumer, rows);
-    for (auto& blocks : reader.blocks) blocks.done();
-  }
-
- private:
-  /// What one consumer works with; made by its thread.
-  struct alignas(64) Reader {
-    bool ready = false;
-    std::vector<SweepReader> blocks;    ///< one for each leader
-    std::unique_ptr<HostWorker> faces;  ///< if face relations are wanted
-  };
-
-  void prepare(Reader& reader) {
-    for (Leader* const leader : leaders_) reader.blocks.emplace_back(*leader, runs_ahead_);
-    if (!faces_.empty()) reader.faces = std::make_unique<HostWorker>(mesh_, faces_);
-    reader.ready = true;
-  }
-
-  const Mesh& mesh_;
-  const RelationSet faces_;
-  const std::vector<Leader*> leaders_;
-  std::atomic<bool>& sweeping_;
-  const bool runs_ahead_;
-  std::vector<Reader> readers_;
-};
-
-LeaderStructure::LeaderStructure(const Mesh& mesh, RelationSet relations, const StructureOptions& options)
-    : Structure(mesh, relations, Way::leaders), leaders_(std::make_shared<Leaders>(mesh, relations, options)) {}
-
-LeaderStructure::~LeaderStructure() { leaders_->end(); }
-
-std::unique_ptr<Consumer> LeaderStructure::consumer() { return std::make_unique<RequestingConsumer>(leaders_, log()); }
-
-std::unique_ptr<Structure::Sweep> LeaderStructure::begin_sweep(RelationSet wanted, int consumers, const SegmentBody&) {
-  return std::make_unique<LeaderSweep>(*this, wanted, consumers);
-}
-
-void LeaderStructure::add_statistics(StructureStatistics& all) const {
-  for (const auto& leader : leaders_->all()) {
-    all.leaders.push_back(leader->statistics());
-    all.host_bytes += leader->host_bytes();
-    all.device_bytes += leader->device_bytes();
-    const std::int64_t on_host = all.leaders.back().segments_on_host;
-    if (on_host == 0) continue;
-    all.notices.push_back(std::to_string(on_host) + " segments of " + name_of(leader->relations()) +
-                          " didn't fit the device's memory: the host computed them");
-  }
-}
+}  // namespace
 
 std::unique_ptr<Structure> make_leader_structure(const Mesh& mesh, RelationSet relations,
                                                  const StructureOptions& options) {

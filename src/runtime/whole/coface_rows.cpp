@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <gale/base/error.hpp>
-#include <gale/base/fresh_memory.hpp>
+#include <gale/base/memory.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/threads.hpp>
 #include <gale/runtime/sweep.hpp>
@@ -35,13 +35,12 @@ class FacePart {
     Id* const counts = counts_.get();
     Id least = least_, most = most_;  // as members they might be among the counts, and stay in memory
     const Id* row = faces_.row(first_);
-    for (Offset i = first_; i < last_;) {
-      for (const Offset end = piece_end(i, last_); i < end; ++i, row += size) {
-        least = std::min(least, row[0]);
-        most = std::max(most, row[size - 1]);
-        for (int k = 0; k < size; ++k) ++counts[row[k]];
-      }
-    }
+    for_range(first_, last_, [&](Offset) {
+      least = std::min(least, row[0]);
+      most = std::max(most, row[size - 1]);
+      for (int k = 0; k < size; ++k) ++counts[row[k]];
+      row += size;
+    });
     least_ = least;
     most_ = most;
   }
@@ -57,15 +56,14 @@ class FacePart {
     constexpr Offset ahead = 16;
     Id* const next = counts_.get();
     const Id* row = faces_.row(first_);
-    for (Offset i = first_; i < last_;) {
-      for (const Offset end = piece_end(i, last_); i < end; ++i, row += size) {
-        if (last_ - i > ahead) {
-          const Id* const later = row + size * ahead;
-          for (int k = 0; k < size; ++k) __builtin_prefetch(entries + begin[later[k]] + next[later[k]], 1);
-        }
-        for (int k = 0; k < size; ++k) entries[begin[row[k]] + next[row[k]]++] = static_cast<Id>(i);
+    for_range(first_, last_, [&](Offset i) {
+      if (last_ - i > ahead) {
+        const Id* const later = row + size * ahead;
+        for (int k = 0; k < size; ++k) __builtin_prefetch(entries + begin[later[k]] + next[later[k]], 1);
       }
-    }
+      for (int k = 0; k < size; ++k) entries[begin[row[k]] + next[row[k]]++] = static_cast<Id>(i);
+      row += size;
+    });
   }
 
  private:

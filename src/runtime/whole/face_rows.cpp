@@ -1,4 +1,4 @@
-#include <gale/base/fresh_memory.hpp>
+#include <gale/base/memory.hpp>
 #include <gale/relations/preconditioning.hpp>
 #include <gale/runtime/sweep.hpp>
 #include <gale/runtime/whole/whole_rows.hpp>

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include <gale/base/fresh_memory.hpp>
+#include <gale/base/memory.hpp>
 #include <gale/runtime/whole/whole_rows.hpp>
 
 namespace gale::detail {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <type_traits>
 
 #include <gale/base/csr.hpp>
 #include <gale/base/parallel.hpp>
@@ -63,25 +62,6 @@ KOKKOS_INLINE_FUNCTION void write_ascending(const FaceRow<size>& row, Id* to) {
     int smaller = 0;
     for (int k = 0; k < size; ++k) smaller += row.ids[k] < row.ids[i] ? 1 : 0;
     to[smaller] = row.ids[i];
-  }
-}
-
-/// Returns use(constant) of a relation to faces, which is known to the compiler there.
-template <class Use>
-auto with_faces_of(Relation relation, const Use& use) {
-  switch (relation) {
-    case Relation::EV:
-      return use(std::integral_constant<Relation, Relation::EV>());
-    case Relation::FV:
-      return use(std::integral_constant<Relation, Relation::FV>());
-    case Relation::FE:
-      return use(std::integral_constant<Relation, Relation::FE>());
-    case Relation::TV:
-      return use(std::integral_constant<Relation, Relation::TV>());
-    case Relation::TE:
-      return use(std::integral_constant<Relation, Relation::TE>());
-    default:
-      return use(std::integral_constant<Relation, Relation::TF>());
   }
 }
 
