@@ -74,7 +74,7 @@ class GALE_EXPORT VertexOrder {
     return all_.keys.in<Memory>();
   }
 
-  /// The keys of some vertices, by GALE's ids, read where all were made.
+  /// The keys of some vertices, by GALE's ids, read in the memory where all keys were made. For GALE's own algorithms.
   std::vector<std::uint64_t> keys_of(const std::vector<Id>& vertices) const;
 
   /// Whether values have 32 bits at most, so that keys have them in their upper halves. For GALE's own algorithms.
@@ -86,7 +86,8 @@ class GALE_EXPORT VertexOrder {
     return all_.values.extent(0) == 0 ? keys()[vertex] >> 32 : all_.values(vertex);
   }
 
-  /// What value_key() says of some vertices, read likewise.
+  /// Value keys of some vertices (see value_key), read in the memory where all keys were made. For GALE's own
+  /// algorithms.
   std::vector<std::uint64_t> value_keys_of(const std::vector<Id>& vertices) const;
 
   /// The highest of some vertices, by GALE's ids; no_id if there are none. On all host threads.

@@ -145,9 +145,10 @@ KOKKOS_FORCEINLINE_FUNCTION constexpr std::uint64_t pair_key(Id first, Id second
 KOKKOS_FORCEINLINE_FUNCTION constexpr Id pair_first(std::uint64_t key) { return static_cast<Id>(key >> 32); }
 KOKKOS_FORCEINLINE_FUNCTION constexpr Id pair_second(std::uint64_t key) { return static_cast<Id>(key & 0xffffffffu); }
 
-/// Spreads keys evenly over hash tables of up to 2^40 places: Fibonacci hashing.
+/// Spreads keys evenly over hash tables of up to 2^spread_bits places: Fibonacci hashing.
+inline constexpr int spread_bits = 40;
 KOKKOS_FORCEINLINE_FUNCTION constexpr std::uint64_t spread(std::uint64_t key) {
-  return (key * 0x9e3779b97f4a7c15u) >> 24;
+  return (key * 0x9e3779b97f4a7c15u) >> (64 - spread_bits);
 }
 
 }  // namespace gale

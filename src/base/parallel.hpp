@@ -66,8 +66,8 @@ auto of_parts(const char* label, Offset n, const F& f) {
   return all;
 }
 
-/// Where each of `keys` keys begins, and the end of the last, of members that parts have counted: parts[i][key] of
-/// them, which becomes where the part's first goes. So each key's members stand in the order of the parts.
+/// Turns counts into places: parts[i][key] is how many members part i has of a key, and becomes the place of the first
+/// of them. Returns where each key begins, and the end of the last.
 template <class Index, class Counts>
 std::vector<Index> begins_of_parts(std::vector<Counts>& parts, Offset keys) {
   std::vector<Index> begin(1, 0);
@@ -80,7 +80,7 @@ std::vector<Index> begins_of_parts(std::vector<Counts>& parts, Offset keys) {
   return begin;
 }
 
-/// All entries of these, one after the other.
+/// Entries of all parts, one part after the other; there is at least one part.
 template <class T>
 std::vector<T> concatenated(std::vector<std::vector<T>> parts) {
   std::vector<T> all = std::move(parts.front());

@@ -19,7 +19,8 @@ class SortedKeys {
     lowest_ = keys.front();
     highest_ = keys.back();
     while ((highest_ - lowest_) >> shift_ >= (std::uint64_t(1) << bucket_bits)) ++shift_;
-    const auto count = static_cast<std::int64_t>(keys.size()), buckets = static_cast<std::int64_t>(bucket(highest_)) + 1;
+    const auto count = static_cast<std::int64_t>(keys.size()),
+               buckets = static_cast<std::int64_t>(bucket(highest_)) + 1;
     const auto copy = allocate<Array<std::uint64_t, HostMemory>>("GALE::sorted_keys", count);
     std::copy(keys.begin(), keys.end(), copy.data());
     const auto begin = allocate<Array<std::int64_t, HostMemory>>("GALE::sorted_keys_begin", buckets + 1);

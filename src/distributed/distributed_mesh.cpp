@@ -20,7 +20,7 @@ namespace gale {
 
 namespace detail {
 
-/// A value that is made in a way that is told before anybody asks.
+/// A value that is made when somebody first asks for it, by a function that was set before.
 template <class T>
 class OnDemand {
  public:

@@ -99,6 +99,21 @@ TEST(VertexOrder, finds_the_highest_of_some) {
   EXPECT_EQ(order.highest({5, 5}), no_id);
 }
 
+TEST(VertexOrder, tells_the_keys_of_some) {
+  const Mesh mesh{Grid(std::array<Id, 3>{4, 3, 3})};
+  std::vector<float> field(mesh.vertices());
+  for (Id v = 0; v < mesh.vertices(); ++v) field[v] = static_cast<float>(v % 5) - 2;
+  const VertexOrder order(mesh, field.data(), field.size());
+  const std::vector<Id> some{7, 0, 35, 7};
+  const auto keys = order.keys_of(some), values = order.value_keys_of(some);
+  for (std::size_t i = 0; i < some.size(); ++i) {
+    EXPECT_EQ(keys[i], order.keys()[some[i]]);
+    EXPECT_EQ(values[i], order.value_key(some[i]));
+  }
+  EXPECT_TRUE(order.keys_of({}).empty());
+  EXPECT_TRUE(order.value_keys_of({}).empty());
+}
+
 TEST(VertexOrder, refuses_another_number_of_values) {
   const std::vector<float> values(3);
   const Mesh mesh = mesh_of_input();

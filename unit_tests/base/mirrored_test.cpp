@@ -40,6 +40,14 @@ TEST(Mirrored, is_the_array_where_it_was_made_and_equal_where_it_was_not) {
   EXPECT_EQ(to_vector(host.in<HostMemory>()), numbers());
 }
 
+TEST(Mirrored, tells_some_entries_wherever_it_was_made) {
+  const auto made = iota("made", HostExecutionSpace(), 100);
+  for (const Mirrored<Id>& where : {Mirrored<Id>(made), Mirrored<Id>(on_worker(made))}) {
+    EXPECT_EQ(detail::entries_at(where, {99, 0, 42, 0}), (std::vector<Id>{99, 0, 42, 0}));
+    EXPECT_TRUE(detail::entries_at(where, {}).empty());
+  }
+}
+
 TEST(Mirrored, copies_share_what_was_copied) {
   const Mirrored<Id> one(to_worker(numbers()));
   const Mirrored<Id> other = one;

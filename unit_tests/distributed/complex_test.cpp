@@ -24,8 +24,7 @@ class ComplexOnRanks : public EveryPartition {
         *structure, find_discrete_gradient(*structure, VertexOrder(whole, values.data(), values.size())), parts);
   }
 
-  MorseSmaleComplex complex_of(const std::vector<double>& values, const MorseSmaleParts& parts = {}) const {
-    const VertexOrder order(mesh_, part_.values(values));
+  MorseSmaleComplex complex_of(const VertexOrder& order, const MorseSmaleParts& parts = {}) const {
     const auto structure = make_structure(mesh_, discrete_gradient_relations_of(mesh_.dimension()));
     return find_morse_smale_complex(*structure, find_discrete_gradient(*structure, order), parts);
   }
@@ -114,7 +113,7 @@ TEST_P(ComplexOnRanks, manifolds_are_those_of_one_rank) {
   for (const Field& field : fields_of_turn(0, 2)) {
     SCOPED_TRACE(field.name);
     const MorseSmaleComplex& whole = once(field.name, [&] { return complex_on_one(field.values); });
-    const MorseSmaleComplex found = complex_of(field.values);
+    const MorseSmaleComplex found = complex_of(order_here(field));
     expect_numbers(found.descending_manifold, to_vector(whole.descending_manifold));
     expect_numbers(found.ascending_manifold, to_vector(whole.ascending_manifold));
     expect_numbers(found.morse_smale_manifold, to_vector(whole.morse_smale_manifold));
@@ -139,7 +138,7 @@ TEST_P(ComplexOnRanks, separatrices_are_those_of_one_rank) {
     MorseSmaleParts parts;
     parts.separatrices2 = !is_surface() && field.name == "permutation";
     const auto& expected = once(field.name, [&] { return all_paths_of(complex_on_one(field.values, parts)); });
-    const auto found = all_paths_of(complex_of(field.values, parts));
+    const auto found = all_paths_of(complex_of(order_here(field), parts));
     for (std::size_t kind = 0; kind < expected.size(); ++kind) {
       SCOPED_TRACE(kind);
       expect_paths(found[kind], expected[kind]);
@@ -148,7 +147,7 @@ TEST_P(ComplexOnRanks, separatrices_are_those_of_one_rank) {
 }
 
 TEST_P(ComplexOnRanks, critical_simplices_are_those_of_the_gradient_and_those_that_separatrices_reach) {
-  const MorseSmaleComplex found = complex_of(fields_on(input())[0].values);
+  const MorseSmaleComplex found = complex_of(VertexOrder(mesh_, part_.values(fields_on(input())[0].values)));
   const auto own = found.own_counts(), all = found.gradient.critical().counts();
   EXPECT_EQ(own, all);
   for (std::size_t i = 0; i < found.critical.vertices.size(); ++i)

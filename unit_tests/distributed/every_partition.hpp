@@ -54,6 +54,12 @@ class EveryPartition : public testing::TestWithParam<std::tuple<std::string, std
     return {all[(place + ranks_.size() / 2) % 2 == 0 ? one : other]};
   }
 
+  /// A field on this rank's part: a permutation in 64 bits a value, others, with their ties, in 32.
+  VertexOrder order_here(const Field& field) const {
+    if (field.name == "permutation") return VertexOrder(mesh_, part_.values(field.values));
+    return VertexOrder(mesh_, part_.values(field.floats()));
+  }
+
   /// The input's number of a local vertex (GALE's id), of a cell.
   Id input_vertex(Id vertex) const { return vertex_named(mesh_.vertex_ids()(mesh_.vertex_input()(vertex))); }
   Id input_cell(Id cell) const { return cell_named(mesh_.cell_ids()(mesh_.cell_input()(cell))); }

@@ -24,7 +24,6 @@ class GatheredOnRanks : public EveryPartition {
   static VertexOrder order_of(const Mesh& mesh, const std::vector<double>& values) {
     return VertexOrder(mesh, values.data(), values.size());
   }
-  VertexOrder order_here(const Field& field) const { return VertexOrder(mesh_, part_.values(field.values)); }
 
   /// The input's vertex that a mesh calls so (GALE's id): the whole, or one that has the global ids.
   static Id input_of(const Mesh& mesh, Id vertex) {

@@ -14,15 +14,6 @@
 
 namespace gale::detail {
 
-/// Reads the successors of some cells.
-template <class Memory>
-struct ReadSuccessors {
-  Array<const Id, Memory> successors;
-  Array<Id, Memory> cells, next;
-
-  KOKKOS_FUNCTION void operator()(Offset i) const { next(i) = successors(cells(i)); }
-};
-
 /// Some paths of cells, one after the other: each cell on them, and its successor.
 struct FollowedCells {
   Array<const Id, HostMemory> cells, next;
@@ -35,7 +26,7 @@ FollowedCells follow_cells(const Space& space, const Array<const Id, MemoryOf<Sp
   using Memory = MemoryOf<Space>;
   const auto cells = follow_whole(space, successors, starts, true).simplices;
   const auto next = allocate<Array<Id, Memory>>("GALE::next_on_path", cells.extent(0));
-  parallel_for("GALE::next_on_path", space, cells.extent(0), ReadSuccessors<Memory>{successors, cells, next});
+  parallel_for("GALE::next_on_path", space, cells.extent(0), ReadEntries<Id, Memory>{successors, cells, next});
   space.fence();
   return {on_host(cells), on_host(next)};
 }
@@ -48,7 +39,7 @@ class CellSteps {
       : successors_(successors),
         here_(one_way && successors.on_device() ? nullptr : successors.in<HostMemory>().data()) {}
 
-  /// Makes known those on the paths from some cells.
+  /// Makes known the successors of all cells on the paths from some.
   void follow(std::vector<Id> cells) {
     if (here_ != nullptr || cells.empty()) return;
     std::sort(cells.begin(), cells.end());

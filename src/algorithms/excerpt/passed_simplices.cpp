@@ -114,7 +114,7 @@ class PassedSimplices {
     mark_paths(complex.ascending, static_cast<int>(marked.size()), mark);
     for (const Id cell : critical.cells) mark(0, cell);
     for (const Id cell : critical.star) mark(0, cell);
-    for (const auto& some : marked) marked_cells_.insert(marked_cells_.end(), some.begin(), some.end());
+    marked_cells_ = concatenated(std::move(marked));
   }
 
   /// Names of the rank's own cells ascend with global ids; others' come after all of these, and have to be put between

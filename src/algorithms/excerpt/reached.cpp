@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <mutex>
 #include <optional>
 #include <utility>
 
@@ -7,6 +6,7 @@
 #include <gale/algorithms/excerpt/gathering.hpp>
 #include <gale/algorithms/excerpt/numbered_set.hpp>
 #include <gale/algorithms/excerpt/reached.hpp>
+#include <gale/algorithms/excerpt/shared_set.hpp>
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/gradient/pair_star.hpp>
 #include <gale/algorithms/morse_smale/edge_star.hpp>
@@ -39,26 +39,6 @@ struct SentStep {
 struct Mark {};
 using Seen = HashTable<Mark>;
 
-/// Keys that threads may add side by side.
-class SharedSeen {
- public:
-  bool insert(std::uint64_t key) {
-    Part& part = parts_[spread(key) >> (64 - part_bits)];
-    const std::lock_guard<std::mutex> lock(part.mutex);
-    return part.keys.insert(key).second;
-  }
-
- private:
-  static constexpr int part_bits = 6;
-
-  struct alignas(64) Part {
-    std::mutex mutex;
-    Seen keys{16};
-  };
-
-  std::array<Part, 1 << part_bits> parts_;
-};
-
 template <class T>
 using ByAsker = std::vector<T>;
 
@@ -68,7 +48,7 @@ struct FoundFor : ReachedLists<ByAsker> {
   std::vector<Id> more_vertices;  ///< that no simplex has
   HashTable<Id> cell_places;
   Seen fallen_vertices, told_edges, risen_cells, risen_edges;
-  SharedSeen fallen_edges;
+  SharedSet fallen_edges;
 };
 
 /// Calls visit(list) for each.
@@ -176,7 +156,8 @@ class Reacher {
         take(step);
       }
     }
-    for (std::size_t asker = 0; asker < falling.size(); ++asker) fall_from(static_cast<int>(asker), falling[asker]);
+    for (std::size_t asker = 0; asker < falling.size(); ++asker)
+      fall_from(static_cast<int>(asker), std::move(falling[asker]));
   }
 
   /// Hands over what other ranks have to follow, and takes what they hand over. False if nobody had anything.
@@ -349,33 +330,42 @@ class Reacher {
     go({StepKind::falling_edge, asker, {high, low}});
   }
 
-  /// Follows edges that fall, to others that do, on all threads: each goes on from one of them after the other.
-  void fall_from(int asker, const std::vector<std::array<Id, 2>>& edges) {
-    if (edges.empty()) return;
+  /// Follows edges that fall, and those that they lead to, on all threads: a thread goes on from one of them for some
+  /// steps, and leaves what is open then to whoever comes next.
+  void fall_from(int asker, std::vector<std::array<Id, 2>> open) {
+    constexpr int most_steps = 1024;
     struct Part {
       std::vector<std::array<Id, 3>> found;
-      std::vector<std::array<Id, 2>> open, elsewhere;
+      std::vector<std::array<Id, 2>> open, left, elsewhere;
     };
     FoundFor& found = found_of(asker);
     std::vector<Part> parts(host_threads());
-    in_turns(host_threads(), static_cast<std::int64_t>(edges.size()), [&](int thread, std::int64_t first) {
-      auto& [here, open, elsewhere] = parts[thread];
-      open.push_back(edges[first]);
-      for (std::int64_t i = 0; !open.empty(); ++i) {
-        stop_if_asked_at(i);
-        const auto [high, low] = open.back();
-        open.pop_back();
-        const Id third = third_of(high, low);
-        if (third == edge_has_vertex) continue;
-        here.push_back({high, low, third});
-        if (third < 0) continue;
-        for (const Id end : {high, low}) {
-          const auto next = ordered(end, third);
-          if (found.fallen_edges.insert(pair_key(next[0], next[1])))
-            (is_owned(next[0]) ? open : elsewhere).push_back(next);
+    while (!open.empty()) {
+      in_turns(host_threads(), static_cast<std::int64_t>(open.size()), [&](int thread, std::int64_t first) {
+        Part& part = parts[thread];
+        part.open.assign(1, open[first]);
+        for (int step = 0; step < most_steps && !part.open.empty(); ++step) {
+          const auto [high, low] = part.open.back();
+          part.open.pop_back();
+          const Id third = third_of(high, low);
+          if (third == edge_has_vertex) continue;
+          part.found.push_back({high, low, third});
+          if (third < 0) continue;
+          for (const Id end : {high, low}) {
+            const auto next = ordered(end, third);
+            if (found.fallen_edges.insert(pair_key(next[0], next[1])))
+              (is_owned(next[0]) ? part.open : part.elsewhere).push_back(next);
+          }
         }
+        part.left.insert(part.left.end(), part.open.begin(), part.open.end());
+      });
+      open.clear();
+      for (Part& part : parts) {
+        open.insert(open.end(), part.left.begin(), part.left.end());
+        part.left.clear();
       }
-    });
+      stop_if_asked();
+    }
     for (const Part& part : parts) {
       found.edges.insert(found.edges.end(), part.found.begin(), part.found.end());
       for (const auto& [high, low] : part.elsewhere) {
@@ -427,7 +417,7 @@ class Reacher {
     return vertex_successor_[high] == low ? edge_has_vertex : edge_is_critical;
   }
 
-  /// Tells that.
+  /// Notes what an edge is paired with for the rank that asks, once; returns it as third_of does.
   Id tell_edge(FoundFor& found, Id high, Id low) {
     const Id third = third_of(high, low);
     if (found.told_edges.insert(pair_key(high, low)).second) found.edges.push_back({high, low, third});

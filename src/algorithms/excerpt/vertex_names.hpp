@@ -8,8 +8,8 @@
 
 namespace gale::detail {
 
-/// Numbers of vertices that compare as global ids do, which ascend with input ids: of one rank's own, and of others,
-/// whose ids come after GALE's. Each is how many vertices have a lower global id. Owns nothing.
+/// Numbers of vertices that compare as global ids do: of one rank's own, whose global ids must ascend with input ids,
+/// and of others, whose ids come after GALE's. Each is how many vertices have a lower global id. Owns nothing.
 struct VertexNames {
   OtherIds input;                  ///< of own vertices, by GALE's ids
   Id own = 0;                      ///< how many these are
@@ -30,7 +30,7 @@ struct VertexNames {
 
 /// Keys that compare vertices that have names. Owns nothing.
 struct NamedKeys {
-  const std::uint64_t* own;               ///< of own vertices, with input ids in their lower halves
+  const std::uint64_t* own;               ///< of own vertices; where there are names, with input ids in lower halves
   Id count;                               ///< how many these are
   const std::uint64_t* others = nullptr;  ///< of the others, with names there
   VertexNames names{};                    ///< of all; none where own keys compare as they are

@@ -68,9 +68,9 @@ void WiderGradient::rank_vertices() {
   std::sort(others.begin(), others.end(), is_less);
   std::vector<Id> all(vertices_);
   std::merge(by_rank.begin(), by_rank.end(), others.begin(), others.end(), all.begin(), is_less);
-  own_keys_.resize(vertices_);
-  for (std::size_t i = 0; i < all.size(); ++i) own_keys_[all[i]] = i;
-  keys_ = {own_keys_.data(), vertices_};
+  ranks_.resize(vertices_);
+  for (std::size_t i = 0; i < all.size(); ++i) ranks_[all[i]] = i;
+  keys_ = {ranks_.data(), vertices_};
 }
 
 void WiderGradient::fill_successors(const Reached& reached) {

@@ -14,12 +14,15 @@
 namespace gale::detail {
 
 /// A gradient of one rank's part, and what ways from there reach on other ranks (`reach_beyond`): what follows them
-/// finds what it would find in the whole. Simplices are numbered as WiderSimplices has them. Where values have more
-/// than 32 bits it takes 8 bytes a vertex, beside what was reached. Refers to the gradient.
+/// finds what it would find in the whole. Simplices are numbered as WiderSimplices has them. Takes 8 bytes a vertex of
+/// a mesh of tetrahedra for rows, unless a grid's codes stand for them, and 8 more where values have more than 32 bits,
+/// beside what was reached. Refers to the gradient.
 class WiderGradient {
  public:
   WiderGradient(const DiscreteGradient& gradient, std::shared_ptr<const WiderSimplices> simplices,
                 const Reached& reached);
+  WiderGradient(const WiderGradient&) = delete;
+  WiderGradient& operator=(const WiderGradient&) = delete;
 
   WallGround ground() const;
   const MoreSuccessors& vertex_successors() const { return vertex_successors_; }
@@ -50,7 +53,8 @@ class WiderGradient {
   const DiscreteGradient& gradient_;
   const std::shared_ptr<const WiderSimplices> simplices_;
   const Id own_vertices_, own_cells_, vertices_;
-  std::vector<std::uint64_t> own_keys_, others_keys_;  ///< own ones where the gradient's aren't enough
+  std::vector<std::uint64_t> ranks_;        ///< places of all in the order, where the gradient's keys say too little
+  std::vector<std::uint64_t> others_keys_;  ///< else keys of others' vertices
   NamedKeys keys_;
   MoreSuccessors vertex_successors_, cell_successors_;
   EdgePairs pairs_;

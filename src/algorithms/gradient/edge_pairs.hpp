@@ -96,8 +96,8 @@ class PairedEdges {
 
   /// Third vertex of the triangle that the edge to it is paired with; no_id if it is with none.
   Id third(Id place) const {
-    if (codes_ == nullptr) return row_.third(place);
     if (place == no_id) return no_id;
+    if (codes_ == nullptr) return row_.third(place);
     const int direction = code_[place];
     return direction >= PairCode::unpaired ? no_id : vertex_ + codes_->step(direction);
   }
@@ -163,7 +163,7 @@ class GALE_EXPORT EdgePairs {
     __builtin_prefetch(is_coded(vertex) ? static_cast<const void*>(codes_->place(vertex)) : row(vertex).ids());
   }
 
-  /// A grid's codes, if there are any: of all vertices that have pairs.
+  /// The codes of a grid, if there are any: of those vertices that have no words.
   const GridCodes* codes() const { return codes_.get(); }
 
   std::size_t bytes() const;

@@ -95,7 +95,7 @@ PathsFromStarts<MemoryOf<Space>> follow_whole(const Space& space, const Successo
   parallel_for("GALE::path_lengths", space, count,
                CountOnPath<Successors, Memory>{successors, from, with_leaving, begin});
   const Offset total = exclusive_scan("GALE::path_begins", space, count, begin, begin);
-  const auto simplices = allocate<Array<Id, Memory>>("GALE::path_cells", total);
+  const auto simplices = allocate<Array<Id, Memory>>("GALE::path_simplices", total);
   parallel_for("GALE::follow_paths", space, count, WritePath<Successors, Memory>{successors, from, begin, simplices});
   space.fence();
   return {begin, simplices};

@@ -181,10 +181,14 @@ ExtremumGraph<MemoryOf<Space>> extremum_graph_of_grid(const Space& space, const 
 /// Where the paths of one side of an order end. Extrema are known by their places here.
 template <class Memory>
 struct FollowedPaths {
-  std::vector<Id> extrema;  ///< GALE's vertices, as the side comes to them
-  std::vector<Meeting>
-      meetings;            ///< vertices where paths of several extrema meet, with each of these; as it comes there
-  Array<Id, Memory> ends;  ///< of each vertex the extremum: `end_at` its place (jump.hpp)
+  /// GALE's vertices, as the side comes to them.
+  std::vector<Id> extrema;
+
+  /// Vertices where paths of several extrema meet, with each of these; as the side comes to them.
+  std::vector<Meeting> meetings;
+
+  /// The extremum of each vertex: `end_at` its place (jump.hpp).
+  Array<Id, Memory> ends;
 };
 
 /// Follows all paths of a side to their ends, by pointer jumping. `keys` are those of the host.

@@ -103,7 +103,8 @@ struct SideOnRanks {
     paths.emplace(simplices, others);
   }
 
-  /// The extrema at which the paths of some vertices end; where paths aren't followed an extremum itself, -1 for others.
+  /// The extrema at which the paths of some vertices end; where paths aren't followed an extremum itself, -1 for
+  /// others.
   std::vector<GlobalId> ends_of(const std::vector<Id>& vertices) const {
     std::vector<GlobalId> ends(vertices.size(), -1);
     if (paths) {
@@ -208,8 +209,7 @@ class GatheredGraph {
       const SideKeys of_side(keys.data(), side);
       const std::vector<GlobalId> extrema = sides[side]->ends_of(others);
       std::vector<JoiningVertex> meetings;
-      for (std::size_t i = 0; i < at.size(); ++i)
-        meetings.push_back({of_side[static_cast<Id>(i)], at[i], extrema[i]});
+      for (std::size_t i = 0; i < at.size(); ++i) meetings.push_back({of_side[static_cast<Id>(i)], at[i], extrema[i]});
       keep_joining(meetings);
       for (const JoiningVertex& meeting : meetings) {
         told[side].push_back({id_of(meeting.vertex), meeting.extremum});

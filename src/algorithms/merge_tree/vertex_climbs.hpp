@@ -29,9 +29,9 @@ struct PutAmongGathered {
   KOKKOS_FUNCTION void operator()(Offset v) const {
     const auto found = here.place_of(keys(v));
     const std::int64_t place = found.is_one || side == above ? found.first : found.first - 1;
-    keys_among(v) = place < 0                                                  ? 0
+    keys_among(v) = place < 0                                               ? 0
                     : place < static_cast<std::int64_t>(gathered.extent(0)) ? gathered(place)
-                                                                               : ~std::uint64_t(0);
+                                                                            : ~std::uint64_t(0);
     ends(v) = end_at(places(input[static_cast<Id>(v)]));
   }
 };

@@ -64,6 +64,24 @@ struct CondensePath {
   }
 };
 
+/// Counts the simplices that have entries in a word.
+template <class Memory>
+struct CountEntries {
+  Array<const std::uint64_t, Memory> words;
+
+  KOKKOS_FUNCTION Id operator()(Offset word) const { return count_bits(words(word)); }
+};
+
+/// Ends the paths of those that are ends.
+template <class Memory>
+struct EndAtEntry {
+  RankedBits entries;
+  Array<const Id, Memory> ends;
+  Array<Id, Memory> next;
+
+  KOKKOS_FUNCTION void operator()(Offset i) const { next(entries.rank(ends(i))) = end_at(static_cast<Id>(i)); }
+};
+
 /// Where some paths begin and end, as with_ends() has it of all simplices: the entries of those of `starts`, which are
 /// written over with their entries, and of `ends`. jump() takes it. Waits for the space.
 template <class Space>
@@ -77,16 +95,12 @@ Array<Id, MemoryOf<Space>> condensed_paths(const Space& space, const Mirrored<Id
   for (const MarkSimplices<Memory>& mark : {MarkSimplices<Memory>{starts, words}, MarkSimplices<Memory>{last, words}})
     parallel_for("GALE::mark_path_entries", space, mark.items(), mark);
   const auto before = allocate<Array<Id, Memory>>("GALE::path_entries_before", count + 1);
-  const Id entries = exclusive_scan(
-      "GALE::path_entries_before", space, count, before,
-      KOKKOS_LAMBDA(Offset word) { return count_bits(words(word)); });
+  const Id entries = exclusive_scan("GALE::path_entries_before", space, count, before, CountEntries<Memory>{words});
   const RankedBits ranked{words.data(), before.data(), nullptr};
   const auto next = allocate<Array<Id, Memory>>("GALE::next_on_path", entries);
   parallel_for("GALE::condense_paths", space, starts.extent(0),
                CondensePath<Memory>{ranked, successors_in<Memory>(successors), starts, next});
-  parallel_for(
-      "GALE::end_paths", space, last.extent(0),
-      KOKKOS_LAMBDA(Offset i) { next(ranked.rank(last(i))) = end_at(static_cast<Id>(i)); });
+  parallel_for("GALE::end_paths", space, last.extent(0), EndAtEntry<Memory>{ranked, last, next});
   space.fence();
   return next;
 }

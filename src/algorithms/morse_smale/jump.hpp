@@ -74,7 +74,7 @@ std::vector<Id> ends_of(const Space& space, const Array<const Id, MemoryOf<Space
   return {places.data(), places.data() + places.extent(0)};
 }
 
-/// Successors in some memory. A copy for the device alone goes with what this returns.
+/// Successors in some memory. Where they lie on the host, a copy on the device lives as long as what is returned.
 template <class Memory>
 Array<const Id, Memory> successors_in(const Mirrored<Id>& successors) {
   if (successors.on_device()) return successors.in<Memory>();

@@ -22,6 +22,7 @@ struct WiderSuccessorsOf {
   Id exit_count = 0;
 
   /// Elsewhere where nobody has told it.
+  GALE_CALLS_ANY
   KOKKOS_FUNCTION Id operator[](Id simplex) const {
     if (simplex >= count) return beyond[simplex - count];
     const Id next = own[simplex];
@@ -55,7 +56,7 @@ struct MoreSuccessors {
   }
   void sort() { parallel_sort("GALE::sort_exits", exits.begin(), exits.end()); }
 
-  /// All of them, of which the host reads own ones so.
+  /// Successors of all, with own ones read through `own_ones`. Refers to these arrays.
   template <class Own>
   WiderSuccessorsOf<Own> beside(const Own& own_ones) const {
     return {own_ones, static_cast<Id>(own.size()), beyond.data(), exits.data(), static_cast<Id>(exits.size())};

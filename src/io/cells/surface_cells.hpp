@@ -32,7 +32,7 @@ FileCells cells_of_surface(SurfaceCells from);
 /// Polygons whose corners come one by one.
 class PolygonList {
  public:
-  /// Adds a corner to the polygon that is under way. What there is no such point is found when they are split.
+  /// Adds a corner to the polygon that is under way. Points that don't exist are found when polygons are split.
   void add(std::int64_t point) {
     if (point < -1 || point > std::numeric_limits<std::int32_t>::max())
       damaged("corner ", corners_.size() - last_end(), " of polygon ", ends_.size(), " is ", point);

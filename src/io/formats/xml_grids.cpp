@@ -21,6 +21,8 @@ struct GridFile {
         element(file.root.require(type)),
         whole(extent_of(element, "WholeExtent")),
         pieces(grid_pieces_of(element, whole)) {}
+  GridFile(const GridFile&) = delete;
+  GridFile& operator=(const GridFile&) = delete;
 
   /// Throws gale::Error if ids can't number its points.
   void require_ids() const {
