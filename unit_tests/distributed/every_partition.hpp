@@ -10,6 +10,8 @@
 
 #include <gtest/gtest.h>
 
+#include <gale/algorithms/vertex_order.hpp>
+
 #include "algorithms/fields.hpp"
 #include "distributed/given_parts.hpp"
 #include "support/segmentations.hpp"
