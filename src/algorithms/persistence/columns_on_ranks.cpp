@@ -3,6 +3,8 @@
 #include <utility>
 
 #include <gale/algorithms/persistence/columns_on_ranks.hpp>
+#include <gale/base/atomic.hpp>
+#include <gale/base/threads.hpp>
 
 namespace gale::detail {
 
@@ -33,15 +35,16 @@ EntriesByRank<T> noted_to_first(const Ranks& ranks, const char* label, const std
   return received;
 }
 
-/// Lets columns fall to their ends on all ranks.
+/// Lets columns fall to their ends on all ranks, each on any of their threads.
 class FallOnRanks {
  public:
   FallOnRanks(const DiscreteGradient& gradient, const CriticalPlaces& places, const SaddleColumns& columns)
-      : mesh_(gradient.mesh()),
+      : gradient_(gradient),
+        mesh_(gradient.mesh()),
         ranks_(mesh_.exchange().ranks()),
         places_(places),
         columns_(columns),
-        chain_(gradient) {}
+        threads_(host_threads()) {}
 
   /// The critical edges of the columns that have stopped, of all that have met one of these edges, and so on: on the
   /// first rank. This rank's are numbered from these two on, in the order of the edges that they have met. Collective.
@@ -49,11 +52,11 @@ class FallOnRanks {
     together(ranks_, [&] {
       number_.assign(columns_.saddles(), no_id);
       columns_.for_each_met([&](Id edge, const Column&) { number_[edge] = first_met++; });
-      for (const Column& column : columns_.stopped()) {
-        chain_.add(column.rim);
-        fall(first_stopped++);
-      }
-      fall_met();
+      const auto& stopped = columns_.stopped();
+      fall_all(stopped.size(), [&](EdgeChain& chain, std::int64_t i) {
+        chain.add(stopped[i].rim);
+        return first_stopped + static_cast<Id>(i);
+      });
     });
     while (ranks_.sum(static_cast<std::int64_t>(exits_.size())) != 0) hand_over();
     auto all = noted_to_first(ranks_, "GALE::fallen_edges", fallen_);
@@ -62,62 +65,104 @@ class FallOnRanks {
   }
 
  private:
-  void fall(Id column) {
+  /// One thread's part.
+  struct Fall {
+    explicit Fall(const DiscreteGradient& gradient) : chain(gradient) {}
+
+    EdgeChain chain;
+    std::vector<FallenEdge> met;  ///< columns that are to fall, and the edges that they have met
+    std::vector<FallenEdge> fallen;
+    std::vector<SentEdge> exits;
+  };
+
+  /// Lets some columns fall, and those whose edges they meet. begin(chain, i) adds the i-th one's edges, and returns
+  /// its number.
+  template <class Begin>
+  void fall_all(std::size_t count, const Begin& begin) {
+    std::vector<std::unique_ptr<Fall>> falls(threads_);
+    const auto fall = [&](std::size_t columns, const auto& begin_one) {
+      if (columns == 0) return;
+      in_turns(threads_, static_cast<std::int64_t>(columns), [&](int thread, std::int64_t i) {
+        if (!falls[thread]) falls[thread] = std::make_unique<Fall>(gradient_);
+        Fall& here = *falls[thread];
+        const Id column = begin_one(here.chain, i);
+        fall_to_end(column, here);
+      });
+    };
+    fall(count, begin);
+    for (std::vector<FallenEdge> met = taken(falls, &Fall::met); !met.empty(); met = taken(falls, &Fall::met)) {
+      fall(met.size(), [&](EdgeChain& chain, std::int64_t i) {
+        chain.add(columns_.owner(met[i].edge)->rim);
+        return met[i].column;
+      });
+    }
+    const auto fallen = taken(falls, &Fall::fallen);
+    fallen_.insert(fallen_.end(), fallen.begin(), fallen.end());
+    const auto exits = taken(falls, &Fall::exits);
+    exits_.insert(exits_.end(), exits.begin(), exits.end());
+  }
+
+  /// Takes what all threads have of something.
+  template <class T>
+  static std::vector<T> taken(const std::vector<std::unique_ptr<Fall>>& falls, std::vector<T> Fall::*member) {
+    std::vector<T> all;
+    for (const auto& fall : falls) {
+      if (!fall) continue;
+      auto& some = (*fall).*member;
+      all.insert(all.end(), some.begin(), some.end());
+      some.clear();
+    }
+    return all;
+  }
+
+  void fall_to_end(Id column, Fall& here) {
     const OtherIds input = mesh_.vertices_in_input();
-    chain_.fall_to_end(
+    here.chain.fall_to_end(
         [&](Id high, Id low) {
           const Id edge = places_.of_edge(high, low);
-          fallen_.push_back({column, edge});
-          if (number_[edge] == no_id) return;
-          met_.push_back({std::exchange(number_[edge], no_id), edge});
+          here.fallen.push_back({column, edge});
+          const Id other = atomic_read(&number_[edge]) == no_id ? no_id : atomic_exchange(&number_[edge], no_id);
+          if (other != no_id) here.met.push_back({other, edge});
         },
         [&](Id high, Id low) {
-          owners_.push_back(mesh_.exchange().owner(input[high]));
-          exits_.push_back({mesh_.vertex_id(input[high]), mesh_.vertex_id(input[low]), column});
+          here.exits.push_back({mesh_.vertex_id(input[high]), mesh_.vertex_id(input[low]), column});
         });
   }
 
-  /// Lets the columns fall that have met edges of others.
-  void fall_met() {
-    while (!met_.empty()) {
-      const FallenEdge at = met_.back();
-      met_.pop_back();
-      chain_.add(columns_.owner(at.edge)->rim);
-      fall(at.column);
-    }
-  }
-
   void hand_over() {
+    const OtherIds internal = mesh_.vertices_of_input();
+    const auto here = [&](GlobalId vertex) { return internal[mesh_.vertex_of(vertex)]; };
     const auto sent = collect_by_rank<SentEdge>(
-        ranks_, "GALE::sent_edges", static_cast<Offset>(exits_.size()), [&](Id i) { return owners_[i]; },
-        [&](Id i) { return exits_[i]; });
+        ranks_, "GALE::sent_edges", static_cast<Offset>(exits_.size()),
+        [&](Id i) { return mesh_.exchange().owner(mesh_.vertex_of(exits_[i].high)); }, [&](Id i) { return exits_[i]; });
     const auto received = exchange_packed(ranks_, "GALE::received_edges", sent);
     exits_.clear();
-    owners_.clear();
     together(ranks_, [&] {
       std::vector<SentEdge> edges(received.entries.data(), received.entries.data() + received.count());
       std::stable_sort(edges.begin(), edges.end(),
                        [](const SentEdge& a, const SentEdge& b) { return a.column < b.column; });
+      std::vector<std::size_t> begin;  // of each column's edges
       for (std::size_t i = 0; i < edges.size(); ++i) {
-        chain_.add(here(edges[i].high), here(edges[i].low));
-        if (i + 1 == edges.size() || edges[i + 1].column != edges[i].column) fall(static_cast<Id>(edges[i].column));
+        if (i == 0 || edges[i].column != edges[i - 1].column) begin.push_back(i);
       }
-      fall_met();
+      begin.push_back(edges.size());
+      fall_all(begin.size() - 1, [&](EdgeChain& chain, std::int64_t column) {
+        for (std::size_t i = begin[column]; i < begin[column + 1]; ++i)
+          chain.add(here(edges[i].high), here(edges[i].low));
+        return static_cast<Id>(edges[begin[column]].column);
+      });
     });
   }
 
-  Id here(GlobalId vertex) const { return mesh_.vertices_of_input()[mesh_.vertex_of(vertex)]; }
-
+  const DiscreteGradient& gradient_;
   const Mesh mesh_;
   const Ranks& ranks_;
   const CriticalPlaces& places_;
   const SaddleColumns& columns_;
+  const int threads_;
   std::vector<Id> number_;  ///< of the column that has met each critical edge, until it falls
-  EdgeChain chain_;
-  std::vector<FallenEdge> met_;  ///< columns that are to fall, and the edges that they have met
   std::vector<FallenEdge> fallen_;
-  std::vector<SentEdge> exits_;
-  std::vector<int> owners_;  ///< who has to follow each of these
+  std::vector<SentEdge> exits_;  ///< that others have to follow
 };
 
 /// Columns on the first rank: those that stopped, by rank, then those that have met a 1-saddle on their ranks. It knows
