@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <gale/algorithms/vertex_order.hpp>
+#include <gale/base/threads.hpp>
 
 #include "algorithms/fields.hpp"
 #include "distributed/given_parts.hpp"
@@ -30,6 +31,19 @@ class EveryPartition : public testing::TestWithParam<std::tuple<std::string, std
   /// The whole mesh, on this rank alone.
   Mesh whole_mesh() const { return is_surface() ? encode(surfaces().at(mesh_name()), 100) : encode(input(), 100); }
 
+  /// Threads of this rank: of one mesh more than it has processors, which find things in other orders.
+  class Threads {
+   public:
+    explicit Threads(const std::string& mesh) : before_(host_threads()) {
+      if (mesh == input_names()[1]) set_host_threads(3);
+    }
+    ~Threads() { set_host_threads(before_); }
+
+   private:
+    const int before_;
+  };
+
+  const Threads threads_{mesh_name()};
   const Communicator ranks_{MPI_COMM_WORLD, 1000};  // so that messages are cut
   const GivenPart part_ = part_of(input(), partition(), ranks_);
   const DistributedMesh mesh_ = distribute(ranks_, part_, partition());
