@@ -65,6 +65,16 @@ class Library:
 
 
 class Exports(unittest.TestCase):
+    def test_types_of_headers_have_names_of_their_own(self):
+        """Link-time checks (scripts/test-compilers.sh) see those templates alone that the library makes, not what a program would."""
+        headers = {}
+        for header in sorted(arguments.source.rglob("*.hpp")):
+            begins = r"^(?:class|struct)\s+(?:GALE_EXPORT\s+)?(\w+)(?:\s+final)?(?:\s*:[^:;{][^;{]*)?\s*\{"
+            for name in re.findall(begins, header.read_text(), re.M):
+                headers.setdefault(name, []).append(str(header.relative_to(arguments.source)))
+        self.assertGreater(len(headers), 300)
+        self.assertEqual({name: where for name, where in headers.items() if len(where) > 1}, {})
+
     def test_functions_of_public_headers_are_marked(self):
         functions = [s for header in arguments.public for s in statements(header) if declares_function(s)]
         self.assertGreater(len(functions), 30)

@@ -3,17 +3,14 @@
 #include <utility>
 
 #include <gale/algorithms/excerpt/cell_steps.hpp>
+#include <gale/algorithms/excerpt/found_for_ranks.hpp>
 #include <gale/algorithms/excerpt/gathering.hpp>
-#include <gale/algorithms/excerpt/numbered_set.hpp>
 #include <gale/algorithms/excerpt/reached.hpp>
-#include <gale/algorithms/excerpt/shared_set.hpp>
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/gradient/pair_star.hpp>
 #include <gale/algorithms/morse_smale/edge_star.hpp>
 #include <gale/algorithms/morse_smale/paths_on_ranks.hpp>
 #include <gale/base/error.hpp>
-#include <gale/base/hash_table.hpp>
-#include <gale/base/parallel.hpp>
 #include <gale/base/threads.hpp>
 
 namespace gale::detail {
@@ -36,53 +33,6 @@ struct SentStep {
   std::array<GlobalId, 3> simplex;
 };
 
-struct Mark {};
-using Seen = HashTable<Mark>;
-
-template <class T>
-using ByAsker = std::vector<T>;
-
-/// What this rank has found for one that asks, and where it has been for it. Vertices are called by GALE's ids, until
-/// all are known.
-struct FoundFor : ReachedLists<ByAsker> {
-  std::vector<Id> more_vertices;  ///< that no simplex has
-  HashTable<Id> cell_places;
-  Seen fallen_vertices, told_edges, risen_cells, risen_edges;
-  SharedSet fallen_edges;
-};
-
-/// Calls visit(list) for each.
-template <class Lists, class Visit>
-void for_each_list_of(Lists& lists, const Visit& visit) {
-  visit(lists.vertices);
-  visit(lists.cells);
-  visit(lists.vertex_steps);
-  visit(lists.edges);
-  visit(lists.cell_steps);
-  visit(lists.cell_forks);
-  visit(lists.critical_triangles);
-  visit(lists.critical_stars);
-}
-
-/// Calls visit(vertex) for each vertex in lists that call them by ids, on all threads.
-template <class Visit>
-void for_each_vertex_of(FoundFor& found, const Visit& visit) {
-  const auto visit_all = [&](auto& list, int vertices, const auto& vertices_of) {
-    parallel_for("GALE::reached_vertices", HostExecutionSpace(), list.size(), [&](Offset i) {
-      Id* const of = vertices_of(list[i]);
-      for (int k = 0; k < vertices; ++k) {
-        if (of[k] >= 0) visit(of[k]);
-      }
-    });
-  };
-  const auto itself = [](auto& simplex) { return simplex.data(); };
-  visit_all(found.vertex_steps, 2, itself);
-  visit_all(found.edges, 3, itself);
-  visit_all(found.critical_triangles, 3, itself);
-  visit_all(found.critical_stars, 3, itself);
-  visit_all(found.cells, 4, [](ReachedCell& cell) { return cell.corners.data(); });
-}
-
 class Reacher {
  public:
   Reacher(const DiscreteGradient& gradient, const WantedWays& ways, Structure* rows)
@@ -99,7 +49,7 @@ class Reacher {
         vertex_successor_(gradient.store().vertex_steps()),
         cell_successors_(gradient.store().cell_successors(), gradient.store().further_successors.empty()),
         further_(gradient.store().further_successors),
-        found_(ranks_.size()) {
+        found_(gradient.order()) {
     if (!ways.rising_walls) return;
     consumer_ = rows->consumer();
     star_.emplace(mesh_);
@@ -145,7 +95,7 @@ class Reacher {
       if (step.kind == StepKind::rising_cell) cells.push_back(step.simplex[0]);
     }
     cell_successors_.follow(std::move(cells));
-    std::vector<std::vector<std::array<Id, 2>>> falling(found_.size());  // edges from which alone edges fall, by asker
+    std::vector<std::vector<std::array<Id, 2>>> falling(ranks_.size());  // edges from which alone edges fall, by asker
     for (std::int64_t i = 0; !here_.empty(); ++i) {
       stop_if_asked_at(i);
       const LocalStep step = here_.back();
@@ -176,54 +126,13 @@ class Reacher {
     return true;
   }
 
-  /// Has all that was found call vertices by their places, before it is sent.
-  void number_vertices() {
-    if (is_beyond_) for_each_list_of(found_[ranks_.rank()], [](auto& list) { list = {}; });
-    for (FoundFor& found : found_) {
-      bool has_any = !found.more_vertices.empty();
-      for_each_list_of(found, [&](auto& list) { has_any = has_any || !list.empty(); });
-      if (has_any) number_vertices(found);
-    }
+  /// Beyond its part, a rank knows by itself what it has found for itself.
+  void forget_own() {
+    if (is_beyond_) found_.forget(ranks_.rank());
   }
 
-  /// How many bytes were found for each rank.
-  std::vector<std::int64_t> bytes() const {
-    std::vector<std::int64_t> bytes;
-    for (const FoundFor& found : found_) {
-      std::int64_t all = 0;
-      for_each_list_of(found, [&](auto& list) { all += static_cast<std::int64_t>(list.size() * sizeof(list[0])); });
-      bytes.push_back(all);
-    }
-    return bytes;
-  }
-
-  /// Sends what was found to those who have asked. Collective.
-  Reached send() {
-    Reached reached;
-    const auto send_list = [&](auto from, auto& to) {
-      using T = typename std::decay_t<decltype(found_[0].*from)>::value_type;
-      EntriesByRank<T> sent;
-      together(ranks_, [&] {
-        std::vector<std::int64_t> counts;
-        for (const FoundFor& found : found_) counts.push_back(static_cast<std::int64_t>((found.*from).size()));
-        sent = room_by_rank<T>("GALE::reached", counts);
-        for (std::size_t r = 0; r < found_.size(); ++r) {
-          std::copy((found_[r].*from).begin(), (found_[r].*from).end(), sent.entries.data() + sent.begin[r]);
-          found_[r].*from = {};
-        }
-      });
-      to = exchange_packed(ranks_, "GALE::received_reached", sent);
-    };
-    send_list(&FoundFor::vertices, reached.vertices);
-    send_list(&FoundFor::cells, reached.cells);
-    send_list(&FoundFor::vertex_steps, reached.vertex_steps);
-    send_list(&FoundFor::edges, reached.edges);
-    send_list(&FoundFor::cell_steps, reached.cell_steps);
-    send_list(&FoundFor::cell_forks, reached.cell_forks);
-    send_list(&FoundFor::critical_triangles, reached.critical_triangles);
-    send_list(&FoundFor::critical_stars, reached.critical_stars);
-    return reached;
-  }
+  /// What was found for all ranks, when nobody has anything left.
+  FoundForRanks& found() { return found_; }
 
  private:
   FoundFor& found_of(int asker) { return found_[asker]; }
@@ -424,19 +333,6 @@ class Reacher {
     return third;
   }
 
-  /// Numbers the vertices of what was found for a rank, by ascending ids, and puts their places in their place.
-  void number_vertices(FoundFor& found) {
-    NumberedSet reached(mesh_.vertices());
-    for_each_vertex_of(found, [&](Id vertex) { reached.insert(vertex); });
-    for (const Id vertex : found.more_vertices) reached.insert(vertex);
-    reached.number();
-    found.vertices.resize(reached.count());
-    reached.for_each("GALE::reached_vertices", [&](Id vertex, Id place) {
-      found.vertices[place] = {mesh_.vertex_id(input_[vertex]), gradient_.order().value_key(vertex)};
-    });
-    for_each_vertex_of(found, [&](Id& vertex) { vertex = reached[vertex]; });
-  }
-
   Id cell_place(FoundFor& found, Id cell) const {
     const auto [place, is_new] = found.cell_places.insert(static_cast<std::uint64_t>(cell));
     if (is_new) {
@@ -461,15 +357,11 @@ class Reacher {
   const std::vector<std::pair<Id, Id>>& further_;
   std::unique_ptr<Consumer> consumer_;  // of rising walls
   std::optional<EdgeStar> star_;
-  std::vector<FoundFor> found_;  // by the rank that asks
+  FoundForRanks found_;
   bool is_beyond_ = false;
   std::vector<LocalStep> here_;
   std::vector<std::pair<int, SentStep>> elsewhere_;
 };
-
-}  // namespace
-
-namespace {
 
 /// Follows what begin(reacher) begins. Collective.
 template <class Begin>
@@ -484,9 +376,11 @@ Reached followed(const DiscreteGradient& gradient, const WantedWays& ways, Struc
   do {
     together(ranks, [&] { reacher->follow(); });
   } while (reacher->hand_over());
-  together(ranks, [&] { reacher->number_vertices(); });
-  require_room(ranks, "what critical simplices reach", reacher->bytes(), most_bytes);
-  return reacher->send();
+  reacher->forget_own();
+  FoundForRanks& found = reacher->found();
+  together(ranks, [&] { found.number_vertices(); });
+  require_room(ranks, "what critical simplices reach", found.bytes(), most_bytes);
+  return found.send();
 }
 
 }  // namespace

@@ -66,7 +66,7 @@ struct CondensePath {
 
 /// Counts the simplices that have entries in a word.
 template <class Memory>
-struct CountEntries {
+struct CountMarked {
   Array<const std::uint64_t, Memory> words;
 
   KOKKOS_FUNCTION Id operator()(Offset word) const { return count_bits(words(word)); }
@@ -95,7 +95,7 @@ Array<Id, MemoryOf<Space>> condensed_paths(const Space& space, const Mirrored<Id
   for (const MarkSimplices<Memory>& mark : {MarkSimplices<Memory>{starts, words}, MarkSimplices<Memory>{last, words}})
     parallel_for("GALE::mark_path_entries", space, mark.items(), mark);
   const auto before = allocate<Array<Id, Memory>>("GALE::path_entries_before", count + 1);
-  const Id entries = exclusive_scan("GALE::path_entries_before", space, count, before, CountEntries<Memory>{words});
+  const Id entries = exclusive_scan("GALE::path_entries_before", space, count, before, CountMarked<Memory>{words});
   const RankedBits ranked{words.data(), before.data(), nullptr};
   const auto next = allocate<Array<Id, Memory>>("GALE::next_on_path", entries);
   parallel_for("GALE::condense_paths", space, starts.extent(0),

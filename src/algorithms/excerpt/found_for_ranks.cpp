@@ -1,0 +1,112 @@
+#include <algorithm>
+#include <type_traits>
+
+#include <gale/algorithms/excerpt/found_for_ranks.hpp>
+#include <gale/algorithms/excerpt/numbered_set.hpp>
+#include <gale/base/parallel.hpp>
+
+namespace gale::detail {
+
+namespace {
+
+/// Calls visit(list) for each list of some.
+template <class Lists, class Visit>
+void for_each_list_of(Lists& lists, const Visit& visit) {
+  visit(lists.vertices);
+  visit(lists.cells);
+  visit(lists.vertex_steps);
+  visit(lists.edges);
+  visit(lists.cell_steps);
+  visit(lists.cell_forks);
+  visit(lists.critical_triangles);
+  visit(lists.critical_stars);
+}
+
+/// Calls visit(vertex) for each vertex in lists that call them by ids, on all threads.
+template <class Visit>
+void for_each_vertex_of(FoundFor& found, const Visit& visit) {
+  const auto visit_all = [&](auto& list, int vertices, const auto& vertices_of) {
+    parallel_for("GALE::reached_vertices", HostExecutionSpace(), list.size(), [&](Offset i) {
+      Id* const of = vertices_of(list[i]);
+      for (int k = 0; k < vertices; ++k) {
+        if (of[k] >= 0) visit(of[k]);
+      }
+    });
+  };
+  const auto itself = [](auto& simplex) { return simplex.data(); };
+  visit_all(found.vertex_steps, 2, itself);
+  visit_all(found.edges, 3, itself);
+  visit_all(found.critical_triangles, 3, itself);
+  visit_all(found.critical_stars, 3, itself);
+  visit_all(found.cells, 4, [](ReachedCell& cell) { return cell.corners.data(); });
+}
+
+}  // namespace
+
+void FoundForRanks::forget(int asker) {
+  for_each_list_of(found_[asker], [](auto& list) { list = {}; });
+  found_[asker].more_vertices = {};
+}
+
+void FoundForRanks::number_vertices() {
+  for (FoundFor& found : found_) {
+    bool has_any = !found.more_vertices.empty();
+    for_each_list_of(found, [&](auto& list) { has_any = has_any || !list.empty(); });
+    if (has_any) number_vertices(found);
+  }
+}
+
+/// Numbers vertices by ascending ids.
+void FoundForRanks::number_vertices(FoundFor& found) const {
+  const Mesh& mesh = order_.mesh();
+  NumberedSet reached(mesh.vertices());
+  for_each_vertex_of(found, [&](Id vertex) { reached.insert(vertex); });
+  for (const Id vertex : found.more_vertices) reached.insert(vertex);
+  reached.number();
+  found.vertices.resize(reached.count());
+  const OtherIds input = mesh.vertices_in_input();
+  reached.for_each("GALE::reached_vertices", [&](Id vertex, Id place) {
+    found.vertices[place] = {mesh.vertex_id(input[vertex]), order_.value_key(vertex)};
+  });
+  for_each_vertex_of(found, [&](Id& vertex) { vertex = reached[vertex]; });
+}
+
+std::vector<std::int64_t> FoundForRanks::bytes() const {
+  std::vector<std::int64_t> bytes;
+  for (const FoundFor& found : found_) {
+    std::int64_t all = 0;
+    for_each_list_of(found, [&](auto& list) { all += static_cast<std::int64_t>(list.size() * sizeof(list[0])); });
+    bytes.push_back(all);
+  }
+  return bytes;
+}
+
+Reached FoundForRanks::send() {
+  const Ranks& ranks = order_.mesh().exchange().ranks();
+  Reached reached;
+  const auto send_list = [&](auto from, auto& to) {
+    using T = typename std::decay_t<decltype(found_[0].*from)>::value_type;
+    EntriesByRank<T> sent;
+    together(ranks, [&] {
+      std::vector<std::int64_t> counts;
+      for (const FoundFor& found : found_) counts.push_back(static_cast<std::int64_t>((found.*from).size()));
+      sent = room_by_rank<T>("GALE::reached", counts);
+      for (std::size_t r = 0; r < found_.size(); ++r) {
+        std::copy((found_[r].*from).begin(), (found_[r].*from).end(), sent.entries.data() + sent.begin[r]);
+        found_[r].*from = {};
+      }
+    });
+    to = exchange_packed(ranks, "GALE::received_reached", sent);
+  };
+  send_list(&FoundFor::vertices, reached.vertices);
+  send_list(&FoundFor::cells, reached.cells);
+  send_list(&FoundFor::vertex_steps, reached.vertex_steps);
+  send_list(&FoundFor::edges, reached.edges);
+  send_list(&FoundFor::cell_steps, reached.cell_steps);
+  send_list(&FoundFor::cell_forks, reached.cell_forks);
+  send_list(&FoundFor::critical_triangles, reached.critical_triangles);
+  send_list(&FoundFor::critical_stars, reached.critical_stars);
+  return reached;
+}
+
+}  // namespace gale::detail
