@@ -120,6 +120,17 @@ Array<T, HostMemory> array_of(const std::string& label, const std::vector<T>& en
   return all;
 }
 
+/// So many zeros, in memory that the system gives on all host threads: where nobody wrote before, that takes longer
+/// than to write them.
+template <class T>
+std::vector<T> zeros(std::size_t count) {
+  std::vector<T> all;
+  reserve(all, count);
+  expect_writes(all.data(), count * sizeof(T), threads_for(static_cast<Offset>(count)));
+  all.resize(count);
+  return all;
+}
+
 /// Writes its place, or the same value, to each entry.
 template <class Ids>
 struct WritePlace {

@@ -73,7 +73,7 @@ Separatrices<Cell> gathered(const std::vector<std::unique_ptr<Tracer>>& tracers,
   copy(&Separatrices<Cell>::is_only);
   copy(&Separatrices<Cell>::joins);
   all.begin.resize(place[count] + 1);
-  all.cells.resize(cell[count]);
+  all.cells = zeros<Cell>(cell[count]);
   parallel_for("GALE::gather_cells", HostExecutionSpace(), count, [&](Offset g) {
     const auto& [part, first, size] = groups[g];
     if (size == 0) return;
