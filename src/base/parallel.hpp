@@ -83,8 +83,11 @@ std::vector<Index> begins_of_parts(std::vector<Counts>& parts, Offset keys) {
 /// Entries of all parts, one part after the other; there is at least one part.
 template <class T>
 std::vector<T> concatenated(std::vector<std::vector<T>> parts) {
-  std::vector<T> all = std::move(parts.front());
-  for (std::size_t part = 1; part < parts.size(); ++part) all.insert(all.end(), parts[part].begin(), parts[part].end());
+  if (parts.size() == 1) return std::move(parts.front());
+  std::vector<T> all;
+  reserve(all, std::accumulate(parts.begin(), parts.end(), std::size_t(0),
+                               [](std::size_t sum, const std::vector<T>& part) { return sum + part.size(); }));
+  for (const std::vector<T>& part : parts) all.insert(all.end(), part.begin(), part.end());
   return all;
 }
 
