@@ -53,7 +53,7 @@ struct TwoRuns {
 /// Brings what comes first of both runs before all others: two runs of each, to be merged by themselves. Of equal
 /// entries those of the first run stay first.
 template <class Iterator, class Less>
-void divide(const TwoRuns<Iterator>& runs, const Less& less, TwoRuns<Iterator>* halves) {
+void divide_runs(const TwoRuns<Iterator>& runs, const Less& less, TwoRuns<Iterator>* halves) {
   const auto [begin, middle, end] = runs;
   Iterator one = begin, other = middle;
   if (middle - begin > end - middle) {
@@ -88,7 +88,7 @@ void merge_runs(Iterator first, const std::vector<Begin>& begin, const Less& les
     const auto count = static_cast<std::size_t>(at(runs) - first);
     while (2 * pairs.size() <= static_cast<std::size_t>(threads) && count / pairs.size() > worth_dividing) {
       std::vector<Runs> halves(2 * pairs.size());
-      for_each_pair([&](std::int64_t i) { detail::divide(pairs[i], less, &halves[2 * i]); });
+      for_each_pair([&](std::int64_t i) { detail::divide_runs(pairs[i], less, &halves[2 * i]); });
       pairs.swap(halves);
     }
     for_each_pair([&](std::int64_t i) {
