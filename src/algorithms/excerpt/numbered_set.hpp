@@ -24,6 +24,9 @@ class NumberedSet {
     return (atomic_read(&bits) & bit) == 0 && (atomic_or(&bits, bit) & bit) == 0;
   }
 
+  /// Has a place that is soon asked for or added brought near.
+  void prefetch(Id place) const { __builtin_prefetch(&words_[static_cast<std::size_t>(place) >> 6], 1); }
+
   bool has(Id place) const { return words_[static_cast<std::size_t>(place) >> 6].has(place & 63); }
 
   /// Numbers the members, on all threads. Once; none is added afterwards.

@@ -94,19 +94,21 @@ class PassedSimplices {
   }
 
   /// Marks what is on paths, before anything else is: where one comes to what is marked, its rest is being marked by
-  /// whoever has marked that. mark(simplex) says whether it wasn't.
-  template <class Mark>
-  static void mark_paths(const Separatrices<Id>& paths, const Mark& mark) {
+  /// whoever has marked that. mark(simplex) says whether it wasn't; bring_near(simplex) is told what comes soon.
+  template <class Mark, class BringNear>
+  static void mark_paths(const Separatrices<Id>& paths, const Mark& mark, const BringNear& bring_near) {
+    constexpr std::ptrdiff_t ahead = 8;
     parallel_for("GALE::mark_paths", HostExecutionSpace(), paths.count(), [&](Offset i) {
-      const Id path = static_cast<Id>(i);
-      for (const Id* at = paths.first(path); at != paths.last(path) && mark(*at); ++at) {
+      const Id* const last = paths.last(static_cast<Id>(i));
+      for (const Id* at = paths.first(static_cast<Id>(i)); at != last && mark(*at); ++at) {
+        if (last - at > ahead) bring_near(at[ahead]);
       }
     });
   }
 
   void mark_cells(const CriticalSimplices& critical, const MorseSmaleComplex& complex) {
     const auto mark = [&](Id cell) { return cells_.insert(wider_->cell_name(cell)); };
-    mark_paths(complex.ascending, mark);
+    mark_paths(complex.ascending, mark, [&](Id cell) { cells_.prefetch(wider_->cell_name(cell)); });
     for (const Id cell : critical.cells) mark(cell);
     for (const Id cell : critical.star) mark(cell);
   }
@@ -171,7 +173,7 @@ class PassedSimplices {
         for (const Id vertex : simplices[i]) mark(vertex);
       });
     };
-    mark_paths(complex.descending, mark);
+    mark_paths(complex.descending, mark, [&](Id vertex) { passed.prefetch(wider_->names()[vertex]); });
     mark_all_of(complex.connectors.cells);
     for (const Id vertex : critical.vertices) mark(vertex);
     mark_all_of(critical.edges);
