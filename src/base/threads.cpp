@@ -22,6 +22,9 @@ std::atomic<int> chosen_threads{0};
 /// The least of the ThreadLimits that live on this thread.
 thread_local int limit_here = no_limit;
 
+/// The largest team that this thread has asked for.
+thread_local int team_here = 1;
+
 /// The first number of OMP_NUM_THREADS, which may be a list; 0 if it isn't set.
 int asked_of_openmp() {
   const char* const text = std::getenv("OMP_NUM_THREADS");
@@ -96,6 +99,11 @@ int detail::available_cores() {
 int host_threads() {
   const int chosen = chosen_threads.load(std::memory_order_relaxed);
   return std::min(chosen > 0 ? chosen : default_threads(), limit_here);
+}
+
+int detail::team_for(int count) {
+  team_here = std::max(team_here, count);
+  return std::max(count, std::min(team_here, host_threads()));
 }
 
 void set_host_threads(int count) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <exception>
@@ -46,6 +45,15 @@ class GALE_EXPORT ThreadLimit {
   int before_;
 };
 
+namespace detail {
+
+/// How many threads OpenMP is asked for, to run so many bodies: as many as this thread has asked for before, within
+/// host_threads(). GCC's ends the threads that a smaller team lacks, and starts others for the next large one, which
+/// takes longer than many a loop.
+GALE_EXPORT int team_for(int count);
+
+}  // namespace detail
+
 /// Calls `body(i)` for i in 0..count-1, each on a thread of its own as far as OpenMP grants them, and returns when all
 /// have returned. The first exception that a body throws is thrown again here, after the others have ended. Loops that
 /// a body begins run on its own thread. What asks this thread to stop asks the bodies.
@@ -79,8 +87,7 @@ void on_threads(int count, const Body& body) {
   for (int i = begun; i < count; ++i) guarded(i);
   for (auto& thread : others) thread.join();
 #else
-  // A team is as large as the one before: GCC's OpenMP ends the threads that a smaller one lacks, and starts new ones.
-#pragma omp parallel num_threads(std::max(count, host_threads()))
+#pragma omp parallel num_threads(detail::team_for(count))
   for (int i = omp_get_thread_num(); i < count; i += omp_get_num_threads()) guarded(i);
 #endif
   if (failure) std::rethrow_exception(failure);
