@@ -83,8 +83,11 @@ std::vector<Index> begins_of_parts(std::vector<Counts>& parts, Offset keys) {
 /// Entries of all parts, one part after the other; there is at least one part.
 template <class T>
 std::vector<T> concatenated(std::vector<std::vector<T>> parts) {
-  std::vector<T> all = std::move(parts.front());
-  for (std::size_t part = 1; part < parts.size(); ++part) all.insert(all.end(), parts[part].begin(), parts[part].end());
+  if (parts.size() == 1) return std::move(parts.front());
+  std::vector<T> all;
+  reserve(all, std::accumulate(parts.begin(), parts.end(), std::size_t(0),
+                               [](std::size_t sum, const std::vector<T>& part) { return sum + part.size(); }));
+  for (const std::vector<T>& part : parts) all.insert(all.end(), part.begin(), part.end());
   return all;
 }
 
@@ -117,6 +120,17 @@ template <class T>
 Array<T, HostMemory> array_of(const std::string& label, const std::vector<T>& entries) {
   const auto all = allocate<Array<T, HostMemory>>(label, entries.size());
   std::copy(entries.begin(), entries.end(), all.data());
+  return all;
+}
+
+/// So many zeros, in memory that the system gives on all host threads: where nobody wrote before, that takes longer
+/// than to write them.
+template <class T>
+std::vector<T> zeros(std::size_t count) {
+  std::vector<T> all;
+  reserve(all, count);
+  expect_writes(all.data(), count * sizeof(T), threads_for(static_cast<Offset>(count)));
+  all.resize(count);
   return all;
 }
 

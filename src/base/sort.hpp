@@ -44,19 +44,56 @@ auto stoppable(const Less& less) {
   };
 }
 
+/// Two runs that follow one another, each in order.
+template <class Iterator>
+struct TwoRuns {
+  Iterator begin, middle, end;
+};
+
+/// Brings what comes first of both runs before all others: two runs of each, to be merged by themselves. Of equal
+/// entries those of the first run stay first.
+template <class Iterator, class Less>
+void divide_runs(const TwoRuns<Iterator>& runs, const Less& less, TwoRuns<Iterator>* halves) {
+  const auto [begin, middle, end] = runs;
+  Iterator one = begin, other = middle;
+  if (middle - begin > end - middle) {
+    one += (middle - begin) / 2;
+    other = std::lower_bound(middle, end, *one, less);
+  } else if (middle != end) {
+    other += (end - middle) / 2;
+    one = std::upper_bound(begin, middle, *other, less);
+  }
+  const Iterator between = std::rotate(one, middle, other);
+  halves[0] = {begin, one, between};
+  halves[1] = {between, other, end};
+}
+
 }  // namespace detail
 
 /// Merges runs that follow one another, each in order, two by two on the host's threads: run i is at begin[i] to
 /// begin[i + 1], from `first` on. Of equal entries those of earlier runs stay first.
 template <class Iterator, class Begin, class Less = std::less<>>
 void merge_runs(Iterator first, const std::vector<Begin>& begin, const Less& less = {}) {
-  const int runs = static_cast<int>(begin.size()) - 1;
+  using Runs = detail::TwoRuns<Iterator>;
+  constexpr std::size_t worth_dividing = 16384;
+  const int runs = static_cast<int>(begin.size()) - 1, threads = host_threads();
   const auto at = [&](int run) { return first + begin[std::min(run, runs)]; };
   for (int merged = 1; merged < runs; merged *= 2) {
-    in_turns(host_threads(), (runs + 2 * merged - 1) / (2 * merged), [&](int, std::int64_t pair) {
-      const int one = 2 * merged * static_cast<int>(pair);
+    std::vector<Runs> pairs;
+    for (int one = 0; one + merged < runs; one += 2 * merged)
+      pairs.push_back({at(one), at(one + merged), at(one + 2 * merged)});
+    const auto for_each_pair = [&](const auto& body) {
+      in_turns(threads, static_cast<std::int64_t>(pairs.size()), [&](int, std::int64_t i) { body(i); });
+    };
+    const auto count = static_cast<std::size_t>(at(runs) - first);
+    while (2 * pairs.size() <= static_cast<std::size_t>(threads) && count / pairs.size() > worth_dividing) {
+      std::vector<Runs> halves(2 * pairs.size());
+      for_each_pair([&](std::int64_t i) { detail::divide_runs(pairs[i], less, &halves[2 * i]); });
+      pairs.swap(halves);
+    }
+    for_each_pair([&](std::int64_t i) {
       auto is_before = detail::stoppable(less);
-      std::inplace_merge(at(one), at(one + merged), at(one + 2 * merged), std::ref(is_before));
+      std::inplace_merge(pairs[i].begin, pairs[i].middle, pairs[i].end, std::ref(is_before));
     });
   }
 }

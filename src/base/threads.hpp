@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <exception>
@@ -78,7 +79,8 @@ void on_threads(int count, const Body& body) {
   for (int i = begun; i < count; ++i) guarded(i);
   for (auto& thread : others) thread.join();
 #else
-#pragma omp parallel num_threads(count)
+  // A team is as large as the one before: GCC's OpenMP ends the threads that a smaller one lacks, and starts new ones.
+#pragma omp parallel num_threads(std::max(count, host_threads()))
   for (int i = omp_get_thread_num(); i < count; i += omp_get_num_threads()) guarded(i);
 #endif
   if (failure) std::rethrow_exception(failure);

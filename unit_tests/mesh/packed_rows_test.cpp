@@ -15,7 +15,9 @@ using Words = std::vector<std::uint32_t>;
 /// Packs rows, expects to find the same again, and returns how many bytes they took.
 std::size_t packed_and_back(const Words& words, int width) {
   const auto rows = static_cast<std::int64_t>(words.size()) / width;
-  const std::vector<char> bytes = detail::pack_rows(words.data(), rows, width);
+  const detail::PackedPieces pieces = detail::pack_rows(words.data(), rows, width);
+  std::vector<char> bytes(detail::bytes_of(pieces));
+  detail::write_pieces(pieces, bytes.data());
   const auto count = static_cast<std::int64_t>(bytes.size());
   EXPECT_EQ(detail::packed_rows(bytes.data(), count), rows);
   Words back(words.size(), 77);
@@ -38,6 +40,17 @@ TEST(PackedRows, come_back_whatever_they_are) {
     }
   }
   packed_and_back({0, ~0u, 0, ~0u, 1u << 31, (1u << 31) - 1, 0}, 1);
+}
+
+TEST(PackedRows, come_back_in_pieces_where_they_are_many) {
+  std::mt19937 random(6);
+  for (const int width : {1, 3}) {
+    for (const int rows : {1 << 15, (1 << 15) + 1, 1 << 17, (1 << 17) + 1, 300000}) {
+      Words words(static_cast<std::size_t>(width) * rows);
+      for (auto& word : words) word = random() % 100000;
+      EXPECT_LE(packed_and_back(words, width), words.size() * 5 + 100);
+    }
+  }
 }
 
 TEST(PackedRows, take_no_bytes_if_there_are_none) {

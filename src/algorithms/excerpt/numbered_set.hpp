@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include <gale/base/atomic.hpp>
@@ -14,7 +15,7 @@ namespace gale::detail {
 class NumberedSet {
  public:
   /// Makes an empty set of the places 0 to places - 1.
-  explicit NumberedSet(Id places) : words_((static_cast<std::size_t>(places) >> 6) + 1) {}
+  explicit NumberedSet(Id places) : words_(zeros<CountedWord>((static_cast<std::size_t>(places) >> 6) + 1)) {}
 
   /// Adds a place, while other threads may add some; false where it was a member before.
   bool insert(Id place) {
@@ -23,14 +24,27 @@ class NumberedSet {
     return (atomic_read(&bits) & bit) == 0 && (atomic_or(&bits, bit) & bit) == 0;
   }
 
+  /// Has a place that is soon asked for or added brought near.
+  void prefetch(Id place) const { __builtin_prefetch(&words_[static_cast<std::size_t>(place) >> 6], 1); }
+
   bool has(Id place) const { return words_[static_cast<std::size_t>(place) >> 6].has(place & 63); }
 
-  /// Numbers the members. Once; none is added afterwards.
+  /// Numbers the members, on all threads. Once; none is added afterwards.
   void number() {
-    for (CountedWord& word : words_) {
-      word.before = count_;
-      count_ += count_bits(word.bits);
-    }
+    const Offset words = static_cast<Offset>(words_.size());
+    std::vector<Id> before = of_parts("GALE::count_members", words, [&](Offset first, Offset last) {
+      Id count = 0;
+      for (Offset w = first; w < last; ++w) count += count_bits(words_[w].bits);
+      return count;
+    });
+    for (Id& part : before) count_ += std::exchange(part, count_);
+    for_parts("GALE::number_members", words, static_cast<int>(before.size()), [&](int part, Offset first, Offset last) {
+      Id next = before[part];
+      for (Offset w = first; w < last; ++w) {
+        words_[w].before = next;
+        next += count_bits(words_[w].bits);
+      }
+    });
   }
 
   /// Calls visit(place, number) for each member, on all threads.

@@ -9,6 +9,8 @@
 #include <gale/algorithms/excerpt/passed_simplices.hpp>
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/base/error.hpp>
+#include <gale/base/ordered.hpp>
+#include <gale/base/sort.hpp>
 #include <gale/base/stop.hpp>
 
 namespace gale::detail {
@@ -92,48 +94,74 @@ class PassedSimplices {
   }
 
   /// Marks what is on paths, before anything else is: where one comes to what is marked, its rest is being marked by
-  /// whoever has marked that. mark(part, simplex) says whether it wasn't.
-  template <class Mark>
-  static void mark_paths(const Separatrices<Id>& paths, int parts, const Mark& mark) {
-    for_parts("GALE::mark_paths", paths.count(), parts, [&](int part, Offset begin, Offset end) {
-      for (Id i = static_cast<Id>(begin); i < end; ++i) {
-        stop_if_asked_at(i);
-        for (const Id* at = paths.first(i); at != paths.last(i) && mark(part, *at); ++at) {
-        }
+  /// whoever has marked that. mark(simplex) says whether it wasn't; bring_near(simplex) is told what comes soon.
+  template <class Mark, class BringNear>
+  static void mark_paths(const Separatrices<Id>& paths, const Mark& mark, const BringNear& bring_near) {
+    constexpr std::ptrdiff_t ahead = 8;
+    parallel_for("GALE::mark_paths", HostExecutionSpace(), paths.count(), [&](Offset i) {
+      const Id* const last = paths.last(static_cast<Id>(i));
+      for (const Id* at = paths.first(static_cast<Id>(i)); at != last && mark(*at); ++at) {
+        if (last - at > ahead) bring_near(at[ahead]);
       }
     });
   }
 
   void mark_cells(const CriticalSimplices& critical, const MorseSmaleComplex& complex) {
-    std::vector<std::vector<Id>> marked(threads_for(complex.ascending.count()));
-    const auto mark = [&](int part, Id cell) {
-      if (!cells_.insert(wider_->cell_name(cell))) return false;
-      marked[part].push_back(cell);
-      return true;
-    };
-    mark_paths(complex.ascending, static_cast<int>(marked.size()), mark);
-    for (const Id cell : critical.cells) mark(0, cell);
-    for (const Id cell : critical.star) mark(0, cell);
-    marked_cells_ = concatenated(std::move(marked));
+    const auto mark = [&](Id cell) { return cells_.insert(wider_->cell_name(cell)); };
+    mark_paths(complex.ascending, mark, [&](Id cell) { cells_.prefetch(wider_->cell_name(cell)); });
+    for (const Id cell : critical.cells) mark(cell);
+    for (const Id cell : critical.star) mark(cell);
+  }
+
+  /// The cells by their numbers among `cells_`.
+  std::vector<Id> cells_by_name() const {
+    auto by_name = zeros<Id>(cells_.count());
+    if (wider_->mesh().cells_in_input().table == nullptr) {  // names are the cells themselves
+      cells_.for_each("GALE::cells_by_name", [&](Id cell, Id number) { by_name[number] = cell; });
+    } else {
+      parallel_for("GALE::cells_by_name", HostExecutionSpace(), wider_->cells(), [&](Offset t) {
+        const Id cell = static_cast<Id>(t), name = wider_->cell_name(cell);
+        if (cells_.has(name)) by_name[cells_[name]] = cell;
+      });
+    }
+    return by_name;
   }
 
   /// Names of the rank's own cells ascend with global ids; others' come after all of these, and have to be put between
   /// them.
   void number_cells() {
+    struct Other {
+      GlobalId id;
+      Id place, own_before;  ///< by name; how many own cells have a lower id
+    };
     cells_.number();
-    const Id count = cells_.count();
-    cell_of_.resize(count);
-    parallel_for("GALE::cells_by_name", HostExecutionSpace(), count,
-                 [&](Offset i) { cell_of_[cells_[wider_->cell_name(marked_cells_[i])]] = marked_cells_[i]; });
-    const auto is_less = [&](Id a, Id b) { return wider_->cell_id(a) < wider_->cell_id(b); };
-    const auto others =
-        std::find_if(cell_of_.begin(), cell_of_.end(), [&](Id cell) { return !wider_->is_own_cell(cell); });
-    std::sort(others, cell_of_.end(), is_less);
-    std::inplace_merge(cell_of_.begin(), others, cell_of_.end(), is_less);
-    marked_cells_ = {};
-    number_of_cell_.resize(count);
-    parallel_for("GALE::number_cells", HostExecutionSpace(), count,
-                 [&](Offset i) { number_of_cell_[cells_[wider_->cell_name(cell_of_[i])]] = static_cast<Id>(i); });
+    const std::vector<Id> by_name = cells_by_name();
+    const auto is_own = [&](Id cell) { return wider_->is_own_cell(cell); };
+    const Id own = static_cast<Id>(std::partition_point(by_name.begin(), by_name.end(), is_own) - by_name.begin());
+    std::vector<Other> others(by_name.size() - own);
+    parallel_for("GALE::other_cells", HostExecutionSpace(), others.size(), [&](Offset i) {
+      const Id place = own + static_cast<Id>(i);
+      const GlobalId id = wider_->cell_id(by_name[place]);
+      others[i] = {id, place, bisect(Id(0), own, [&](Id at) { return wider_->cell_id(by_name[at]) < id; })};
+    });
+    parallel_sort("GALE::sort_other_cells", others.begin(), others.end(),
+                  [](const Other& a, const Other& b) { return a.id < b.id; });
+    cell_of_ = zeros<Id>(by_name.size());
+    number_of_cell_ = zeros<Id>(by_name.size());
+    const auto set_number = [&](Offset place, Offset number) {
+      cell_of_[number] = by_name[place];
+      number_of_cell_[place] = static_cast<Id>(number);
+    };
+    for_parts("GALE::number_cells", own, threads_for(own), [&](int, Offset begin, Offset end) {
+      auto next = std::partition_point(others.begin(), others.end(),
+                                       [&](const Other& other) { return other.own_before <= begin; });
+      for (Offset i = begin; i < end; ++i) {
+        while (next != others.end() && next->own_before <= i) ++next;
+        set_number(i, i + (next - others.begin()));
+      }
+    });
+    parallel_for("GALE::number_cells", HostExecutionSpace(), others.size(),
+                 [&](Offset i) { set_number(others[i].place, others[i].own_before + i); });
   }
 
   /// The vertices of what is passed alone.
@@ -145,8 +173,7 @@ class PassedSimplices {
         for (const Id vertex : simplices[i]) mark(vertex);
       });
     };
-    mark_paths(complex.descending, threads_for(complex.descending.count()),
-               [&](int, Id vertex) { return mark(vertex); });
+    mark_paths(complex.descending, mark, [&](Id vertex) { passed.prefetch(wider_->names()[vertex]); });
     mark_all_of(complex.connectors.cells);
     for (const Id vertex : critical.vertices) mark(vertex);
     mark_all_of(critical.edges);
@@ -182,7 +209,8 @@ class PassedSimplices {
   NumberedSet cells_;                    ///< by name
   std::optional<NumberedSet> vertices_;  ///< by name; none where all are taken
   Id vertex_count_ = 0;
-  std::vector<Id> marked_cells_, cell_of_, number_of_cell_;
+  std::vector<Id> cell_of_;         ///< by number
+  std::vector<Id> number_of_cell_;  ///< by name
 };
 
 /// Has each of a list be what rename(it) says.

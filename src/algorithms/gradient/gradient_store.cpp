@@ -14,9 +14,7 @@ std::vector<T> merged(const std::vector<ConsumerFound>& parts, HostList<T> Found
                       const Key& key) {
   std::size_t count = 0;
   for (const auto& part : parts) count += (part.*member).size();
-  std::vector<std::pair<decltype(key(T())), T>> keyed;
-  reserve(keyed, count);
-  keyed.resize(count);
+  auto keyed = zeros<std::pair<decltype(key(T())), T>>(count);
   Offset begin = 0;
   for (const auto& part : parts) {
     const std::vector<T>& own = part.*member;
@@ -27,9 +25,7 @@ std::vector<T> merged(const std::vector<ConsumerFound>& parts, HostList<T> Found
   }
   parallel_sort("GALE::sort_critical", keyed.begin(), keyed.end(),
                 [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<T> all;
-  reserve(all, count);
-  all.resize(count);
+  auto all = zeros<T>(count);
   parallel_for("GALE::critical", HostExecutionSpace(), count, [&](Offset i) { all[i] = keyed[i].second; });
   return all;
 }

@@ -2,6 +2,7 @@
 #include <numeric>
 
 #include <gale/algorithms/merge_tree/assemble.hpp>
+#include <gale/base/sort.hpp>
 #include <gale/base/stop.hpp>
 
 namespace gale::detail {
@@ -61,7 +62,7 @@ MergeTree tree_of(const Mesh& mesh, const std::vector<Id>& nodes, const std::vec
   for (const Id vertex : nodes) tree.vertices.push_back(mesh.vertices_in_input()[vertex]);
   std::vector<Id> sorted(ends.size());
   std::iota(sorted.begin(), sorted.end(), Id(0));
-  std::sort(sorted.begin(), sorted.end(), [&](Id a, Id b) { return ends[a] < ends[b]; });
+  parallel_sort("GALE::sort_arcs", sorted.begin(), sorted.end(), [&](Id a, Id b) { return ends[a] < ends[b]; });
   std::vector<int> lower_arcs(nodes.size(), 0), upper_arcs(nodes.size(), 0);
   place.resize(ends.size());
   for (const Id arc : sorted) {

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <functional>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -36,16 +34,17 @@ MergeTree tree_of(const Mesh& mesh, const std::vector<Id>& nodes, const std::vec
 /// How many of so many vertices each arc has; arc_of(i) is that of the i-th, or no_id.
 template <class ArcOf>
 std::vector<Id> sizes_of(std::size_t arcs, Offset vertices, const ArcOf& arc_of) {
-  const int parts = threads_for(vertices);
-  std::vector<std::vector<Id>> sizes(parts, std::vector<Id>(arcs, 0));
-  for_parts("GALE::count_on_arcs", vertices, parts, [&](int part, Offset begin, Offset end) {
+  auto sizes = of_parts("GALE::count_on_arcs", vertices, [&](Offset begin, Offset end) {
+    std::vector<Id> mine(arcs, 0);
     for (Offset i = begin; i < end; ++i) {
       const Id arc = arc_of(i);
-      if (arc != no_id) ++sizes[part][arc];
+      if (arc != no_id) ++mine[arc];
     }
+    return mine;
   });
-  for (int part = 1; part < parts; ++part)
-    std::transform(sizes[0].begin(), sizes[0].end(), sizes[part].begin(), sizes[0].begin(), std::plus<>());
+  parallel_for("GALE::add_on_arcs", HostExecutionSpace(), static_cast<Offset>(arcs), [&](Offset arc) {
+    for (std::size_t part = 1; part < sizes.size(); ++part) sizes[0][arc] += sizes[part][arc];
+  });
   return std::move(sizes[0]);
 }
 

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <numeric>
 #include <optional>
-#include <string>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -13,7 +12,9 @@
 #include <gale/algorithms/excerpt/gathering.hpp>
 #include <gale/algorithms/merge_tree/trees_on_ranks.hpp>
 #include <gale/algorithms/morse_smale/paths_on_ranks.hpp>
-#include <gale/base/error.hpp>
+#include <gale/base/parallel.hpp>
+#include <gale/base/sort.hpp>
+#include <gale/mesh/exchange/global_index.hpp>
 #include <gale/mesh/exchange/messages.hpp>
 
 namespace gale::detail {
@@ -61,21 +62,25 @@ struct JoiningVertex {
 /// Keeps the meetings that join paths to extrema which lower ones of this rank (as the side comes to them) don't: what
 /// joins extrema that are joined already makes no node, wherever the others are.
 inline void keep_joining(std::vector<JoiningVertex>& meetings) {
-  std::sort(meetings.begin(), meetings.end());
-  std::unordered_map<GlobalId, GlobalId> joined;
-  const auto find = [&](GlobalId extremum) {
-    auto at = joined.try_emplace(extremum, extremum).first;
-    while (at->second != at->first) at = joined.find(at->second);
-    joined[extremum] = at->first;
-    return at->first;
+  parallel_sort("GALE::sort_meetings", meetings.begin(), meetings.end());
+  const Offset count = static_cast<Offset>(meetings.size());
+  const auto extremum_of = [&](Offset i) { return meetings[i].extremum; };
+  const GlobalIndex extrema(distinct_ids(tabulated<GlobalId>("GALE::met_extrema", count, extremum_of)).ids);
+  const auto place_of =
+      tabulated<Id>("GALE::met_extrema", count, [&](Offset i) { return extrema.find(extremum_of(i)); });
+  std::vector<Id> joined(extrema.count());
+  std::iota(joined.begin(), joined.end(), Id(0));
+  const auto find = [&](Id extremum) {
+    while (joined[extremum] != extremum) extremum = joined[extremum] = joined[joined[extremum]];
+    return extremum;
   };
   std::vector<JoiningVertex> kept;
   for (std::size_t i = 0, next = 0; i < meetings.size(); i = next) {
     const std::size_t before = kept.size();
     kept.push_back(meetings[i]);
-    const GlobalId first = find(meetings[i].extremum);
+    const Id all = find(place_of(i));
     for (next = i + 1; next < meetings.size() && meetings[next].vertex == meetings[i].vertex; ++next) {
-      const GlobalId other = find(meetings[next].extremum), all = find(first);
+      const Id other = find(place_of(next));
       if (other == all) continue;
       joined[other] = all;
       kept.push_back(meetings[next]);
@@ -96,9 +101,10 @@ struct SideOnRanks {
     if (!is_wanted) return;
     std::vector<Id> others;
     together(order.mesh().exchange().ranks(), [&] {
-      for (const Meeting& meeting : meetings) {
-        if (!order.mesh().owned_vertices().has(meeting.other)) others.push_back(meeting.other);
-      }
+      const Interval owned = order.mesh().owned_vertices();
+      others = collected<Id>("GALE::meetings_elsewhere", meetings.size(), [&](Offset i, const auto& add) {
+        if (!owned.has(meetings[i].other)) add(meetings[i].other);
+      });
     });
     paths.emplace(simplices, others);
   }
@@ -109,26 +115,26 @@ struct SideOnRanks {
     std::vector<GlobalId> ends(vertices.size(), -1);
     if (paths) {
       const std::vector<Id> here = paths->ends_of(vertices);
-      for (std::size_t i = 0; i < ends.size(); ++i) ends[i] = paths->final_stop(here[i]).id;
+      parallel_for("GALE::ends_on_side", HostExecutionSpace(), ends.size(),
+                   [&](Offset i) { ends[i] = paths->final_stop(here[i]).id; });
       return ends;
     }
     std::vector<Id> sorted = extrema;
-    std::sort(sorted.begin(), sorted.end());
-    for (std::size_t i = 0; i < ends.size(); ++i) {
+    parallel_sort("GALE::sort_extrema", sorted.begin(), sorted.end());
+    parallel_for("GALE::ends_on_side", HostExecutionSpace(), ends.size(), [&](Offset i) {
       if (std::binary_search(sorted.begin(), sorted.end(), vertices[i])) ends[i] = simplices.global(vertices[i]);
-    }
+    });
     return ends;
   }
 
-  /// For each end that paths have on this rank the place of the extremum where they end finally; no_id where nobody has
-  /// asked for one: no path of this rank's comes there.
-  Array<const Id, HostMemory> places_of_ends(const std::unordered_map<GlobalId, Id>& places) const {
-    const auto of_ends = allocate<Array<Id, HostMemory>>("GALE::places_of_ends", paths->ends());
-    for (Id end = 0; end < paths->ends(); ++end) {
-      const PathStop stop = paths->final_stop(end);
-      of_ends(end) = stop.rank == PathStop::critical ? places.at(stop.id) : no_id;
-    }
-    return of_ends;
+  /// For each end that paths have on this rank place_of(extremum) of the one where they end finally; no_id where nobody
+  /// has asked for one: no path of this rank's comes there.
+  template <class PlaceOf>
+  Array<const Id, HostMemory> places_of_ends(const PlaceOf& place_of) const {
+    return tabulated<Id>("GALE::places_of_ends", paths->ends(), [&](Offset end) {
+      const PathStop stop = paths->final_stop(static_cast<Id>(end));
+      return stop.rank == PathStop::critical ? place_of(stop.id) : no_id;
+    });
   }
 
   const Mirrored<Id> next;
@@ -158,16 +164,21 @@ class GatheredGraph {
   /// The graph, whose vertices are places by ascending id.
   ExtremumGraph<HostMemory> graph() const {
     ExtremumGraph<HostMemory> small;
-    const auto count = static_cast<Id>(ids_.extent(0));
+    const Offset count = static_cast<Offset>(vertices.size());
     for (const Side side : {below, above}) {
-      small[side].next = allocate<Array<Id, HostMemory>>("GALE::next_of_gathered", count);
-      for (const TreeVertex& vertex : vertices) {
-        const Id at = index_.find(vertex.id), end = index_.find(vertex.ends[side]);
-        small[side].next(at) = end == at ? no_id : end;
-        if (end == at) small[side].extrema.push_back(at);
-      }
-      for (const TreeMeeting& meeting : meetings_[side])
-        small[side].meetings.push_back({index_.find(meeting.vertex), index_.find(meeting.extremum)});
+      ExtremumGraphSide<HostMemory>& of = small[side];
+      of.next = allocate<Array<Id, HostMemory>>("GALE::next_of_gathered", count);
+      parallel_for("GALE::next_of_gathered", HostExecutionSpace(), count, [&](Offset i) {
+        of.next(place_of_[i]) = is_extremum(i, side) ? no_id : index_.find(vertices[i].ends[side]);
+      });
+      of.extrema = collected<Id>("GALE::gathered_extrema", count, [&](Offset i, const auto& add) {
+        if (is_extremum(i, side)) add(place_of_[i]);
+      });
+      const std::vector<TreeMeeting>& meetings = meetings_[side];
+      of.meetings.resize(meetings.size());
+      parallel_for("GALE::gathered_meetings", HostExecutionSpace(), meetings.size(), [&](Offset i) {
+        of.meetings[i] = {index_.find(meetings[i].vertex), index_.find(meetings[i].extremum)};
+      });
     }
     return small;
   }
@@ -175,16 +186,16 @@ class GatheredGraph {
   const Mesh& mesh() const { return *mesh_; }
   const VertexOrder& order() const { return *order_; }
 
-  /// The places of extrema as a side comes to them, by id.
-  std::unordered_map<GlobalId, Id> places_of_extrema(Side side) const {
-    std::unordered_map<GlobalId, Id> places;
-    const auto add = [&](const TreeVertex& vertex) {
-      if (vertex.ends[side] == vertex.id) places.try_emplace(vertex.id, static_cast<Id>(places.size()));
-    };
-    if (side == below) {
-      std::for_each(vertices.begin(), vertices.end(), add);
-    } else {
-      std::for_each(vertices.rbegin(), vertices.rend(), add);
+  /// The place of a vertex among them, by ascending id.
+  Id place_of(GlobalId id) const { return index_.find(id); }
+
+  /// The places of extrema as a side comes to them, by their places among vertices; no_id for others.
+  std::vector<Id> places_of_extrema(Side side) const {
+    std::vector<Id> places(vertices.size(), no_id);
+    Id count = 0;
+    for (std::size_t k = 0; k < vertices.size(); ++k) {
+      const std::size_t i = side == below ? k : vertices.size() - 1 - k;
+      if (is_extremum(i, side)) places[place_of_[i]] = count++;
     }
     return places;
   }
@@ -192,6 +203,8 @@ class GatheredGraph {
   std::vector<TreeVertex> vertices;  ///< in the order
 
  private:
+  bool is_extremum(Offset i, Side side) const { return vertices[i].ends[side] == vertices[i].id; }
+
   static void begin(const VertexOrder& order, const std::array<std::unique_ptr<SideOnRanks>, 2>& sides,
                     std::vector<TreeVertex>& own, std::array<std::vector<TreeMeeting>, 2>& told) {
     const Mesh& mesh = order.mesh();
@@ -200,46 +213,57 @@ class GatheredGraph {
     std::vector<Id> all;
     for (const Side side : {below, above}) {
       all.insert(all.end(), sides[side]->extrema.begin(), sides[side]->extrema.end());
-      std::vector<Id> at, others;
-      for (const Meeting& meeting : sides[side]->meetings) {
-        at.push_back(meeting.vertex);
-        others.push_back(meeting.other);
-      }
-      const std::vector<std::uint64_t> keys = order.keys_of(at);
-      const SideKeys of_side(keys.data(), side);
-      const std::vector<GlobalId> extrema = sides[side]->ends_of(others);
-      std::vector<JoiningVertex> meetings;
-      for (std::size_t i = 0; i < at.size(); ++i) meetings.push_back({of_side[static_cast<Id>(i)], at[i], extrema[i]});
-      keep_joining(meetings);
-      for (const JoiningVertex& meeting : meetings) {
+      for (const JoiningVertex& meeting : joining(order, *sides[side], side)) {
         told[side].push_back({id_of(meeting.vertex), meeting.extremum});
         all.push_back(meeting.vertex);
       }
     }
-    std::sort(all.begin(), all.end());
+    parallel_sort("GALE::sort_told", all.begin(), all.end());
     all.erase(std::unique(all.begin(), all.end()), all.end());
     const std::vector<std::uint64_t> values = order.value_keys_of(all);
     const std::array<std::vector<GlobalId>, 2> ends{sides[below]->ends_of(all), sides[above]->ends_of(all)};
-    for (std::size_t i = 0; i < all.size(); ++i)
-      own.push_back({id_of(all[i]), values[i], {ends[below][i], ends[above][i]}});
+    own.resize(all.size());
+    parallel_for("GALE::told_vertices", HostExecutionSpace(), all.size(), [&](Offset i) {
+      own[i] = {id_of(all[i]), values[i], {ends[below][i], ends[above][i]}};
+    });
+  }
+
+  /// The meetings of a side that join what this rank's others don't.
+  static std::vector<JoiningVertex> joining(const VertexOrder& order, const SideOnRanks& paths, Side side) {
+    const Offset count = static_cast<Offset>(paths.meetings.size());
+    std::vector<Id> at(count), others(count);
+    parallel_for("GALE::meetings", HostExecutionSpace(), count, [&](Offset i) {
+      at[i] = paths.meetings[i].vertex;
+      others[i] = paths.meetings[i].other;
+    });
+    const std::vector<std::uint64_t> keys = order.keys_of(at);
+    const SideKeys of_side(keys.data(), side);
+    const std::vector<GlobalId> extrema = paths.ends_of(others);
+    std::vector<JoiningVertex> meetings(count);
+    parallel_for("GALE::meetings", HostExecutionSpace(), count, [&](Offset i) {
+      meetings[i] = {of_side[static_cast<Id>(i)], at[i], extrema[i]};
+    });
+    keep_joining(meetings);
+    return meetings;
   }
 
   void finish() {
-    std::sort(vertices.begin(), vertices.end());
-    ids_ = allocate<GlobalIds>("GALE::gathered_ids", vertices.size());
-    for (std::size_t i = 0; i < vertices.size(); ++i) ids_(i) = vertices[i].id;
-    std::sort(ids_.data(), ids_.data() + ids_.extent(0));
-    index_ = GlobalIndex(ids_);
-    mesh_ = excerpt_mesh<4>(ids_, GlobalIds(), CellCorners<4, Id, HostMemory>());
-    std::vector<std::uint64_t> values(vertices.size());
-    for (const TreeVertex& vertex : vertices) values[index_.find(vertex.id)] = vertex.value;
-    order_ = excerpt_order(*mesh_, [&](Id v) { return values[v]; });
+    parallel_sort("GALE::sort_gathered", vertices.begin(), vertices.end());
+    const Offset count = static_cast<Offset>(vertices.size());
+    const DistinctIds by_id =
+        distinct_ids(tabulated<GlobalId>("GALE::gathered_ids", count, [&](Offset i) { return vertices[i].id; }));
+    index_ = GlobalIndex(by_id.ids);
+    place_of_.resize(count);
+    parallel_for("GALE::gathered_places", HostExecutionSpace(), count,
+                 [&](Offset place) { place_of_[by_id.places(place)] = static_cast<Id>(place); });
+    mesh_ = excerpt_mesh<4>(by_id.ids, GlobalIds(), CellCorners<4, Id, HostMemory>());
+    order_ = excerpt_order(*mesh_, [&](Id v) { return vertices[by_id.places(v)].value; });
   }
 
   const Ranks& ranks_;
   std::array<std::vector<TreeMeeting>, 2> meetings_;
-  GlobalIds ids_;
   GlobalIndex index_;
+  std::vector<Id> place_of_;  ///< of each of `vertices`, by ascending id
   std::optional<Mesh> mesh_;
   std::optional<VertexOrder> order_;
 };

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include <gale/algorithms/merge_tree/merge_forest.hpp>
+#include <gale/base/sort.hpp>
 #include <gale/base/stop.hpp>
 
 namespace gale::detail {
@@ -75,7 +76,8 @@ class ExtremumJoiner {
 void sort_nodes(const SideKeys& keys, MergeForest& forest) {
   std::vector<Id> sorted(forest.vertices.size()), number(sorted.size());
   std::iota(sorted.begin(), sorted.end(), Id(0));
-  std::sort(sorted.begin(), sorted.end(), [&](Id a, Id b) { return keys(forest.vertices[a], forest.vertices[b]); });
+  parallel_sort("GALE::sort_nodes", sorted.begin(), sorted.end(),
+                [&](Id a, Id b) { return keys(forest.vertices[a], forest.vertices[b]); });
   for (std::size_t i = 0; i < sorted.size(); ++i) number[sorted[i]] = static_cast<Id>(i);
   const auto renumbered = [&](Id node) { return node == no_id ? no_id : number[node]; };
   MergeForest to = forest;
@@ -98,7 +100,8 @@ MergeForest merge_forest(const SideKeys& keys, const std::vector<Id>& extrema, c
     while (next < meetings.size() && meetings[next].vertex == meetings[i].vertex) ++next;
     joiner.join(meetings.data() + i, meetings.data() + next);
   }
-  std::sort(lasts.begin(), lasts.end(), [&](const Meeting& a, const Meeting& b) { return keys(b.vertex, a.vertex); });
+  parallel_sort("GALE::sort_lasts", lasts.begin(), lasts.end(),
+                [&](const Meeting& a, const Meeting& b) { return keys(b.vertex, a.vertex); });
   for (const Meeting& last : lasts) joiner.end_at(last);
   sort_nodes(keys, joiner.forest);
   return std::move(joiner.forest);

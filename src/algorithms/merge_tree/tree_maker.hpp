@@ -9,6 +9,7 @@
 #include <gale/algorithms/merge_tree/assemble.hpp>
 #include <gale/algorithms/merge_tree/merge_forest.hpp>
 #include <gale/algorithms/merge_tree/vertex_arcs.hpp>
+#include <gale/base/sort.hpp>
 
 namespace gale::detail {
 
@@ -86,7 +87,7 @@ class TreeMaker {
   void choose_nodes() {
     for (const Side side : {below, above})
       nodes_.insert(nodes_.end(), forests_[side].vertices.begin(), forests_[side].vertices.end());
-    std::sort(nodes_.begin(), nodes_.end(), keys(below));
+    parallel_sort("GALE::sort_tree_nodes", nodes_.begin(), nodes_.end(), keys(below));
     nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
     for (const Side side : {below, above}) {
       if (!uses_[side]) continue;

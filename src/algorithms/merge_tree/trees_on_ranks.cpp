@@ -16,13 +16,14 @@ namespace {
 /// Gives a tree the arcs of what this rank holds, and counts those of all. Collective.
 void set_arcs_on_ranks(const Mesh& mesh, const Mesh& excerpt, MergeTree& tree, std::vector<Id> arc_of) {
   const Ranks& ranks = mesh.exchange().ranks();
-  const auto node = [&](Id i) { return mesh.vertex_of(excerpt.vertex_id(tree.vertices[i])); };
+  std::vector<Id> node;  // by input id; no_id where it isn't here
   std::vector<std::int64_t> sizes;
   together(ranks, [&] {
-    for (std::size_t i = 0; i < tree.vertices.size(); ++i) {
-      const Id here = node(static_cast<Id>(i));
-      if (here != no_id) arc_of[here] = no_id;
-    }
+    node.resize(tree.vertices.size());
+    parallel_for("GALE::nodes_here", HostExecutionSpace(), node.size(), [&](Offset i) {
+      node[i] = mesh.vertex_of(excerpt.vertex_id(tree.vertices[i]));
+      if (node[i] != no_id) arc_of[node[i]] = no_id;
+    });
     const OtherIds input = mesh.vertices_in_input();
     const Id first = mesh.owned_vertices().first;
     const std::vector<Id> mine = sizes_of(tree.arcs.size(), mesh.owned_vertices().size(),
@@ -36,8 +37,7 @@ void set_arcs_on_ranks(const Mesh& mesh, const Mesh& excerpt, MergeTree& tree, s
       require_ids("vertices on an arc", sizes[i]);
       tree.arcs[i].size = static_cast<Id>(sizes[i]);
       for (const Id end : {tree.arcs[i].lower, tree.arcs[i].upper}) {
-        const Id here = node(end);
-        if (here != no_id) arc_of[here] = static_cast<Id>(i);
+        if (node[end] != no_id) arc_of[node[end]] = static_cast<Id>(i);
       }
     }
     tree.arc_of = std::move(arc_of);
@@ -75,7 +75,10 @@ std::vector<MergeTree> trees_on_ranks(const VertexOrder& order, MirroredGraph gr
   for (const Side side : {below, above}) {
     if (!maker->uses(side)) continue;
     Array<const Id, HostMemory> of_ends;
-    together(ranks, [&] { of_ends = sides[side]->places_of_ends(gathered.places_of_extrema(side)); });
+    together(ranks, [&] {
+      const std::vector<Id> extrema = gathered.places_of_extrema(side);
+      of_ends = sides[side]->places_of_ends([&](GlobalId id) { return extrema[gathered.place_of(id)]; });
+    });
     places[side] = ends_of_vertices(*sides[side]->paths, {}, of_ends);
   }
   std::vector<std::vector<Id>> arcs;

@@ -52,10 +52,10 @@ std::vector<std::vector<Id>> arcs_of_vertices(const Space& space, const Mesh& me
   find.input = mesh.vertices_in_input<Memory>();
   find.count = static_cast<int>(trees.size());
   std::vector<std::vector<Id>> found(trees.size());
-  for (std::vector<Id>& arcs : found) {
-    reserve(arcs, mesh.vertices());
-    arcs.resize(mesh.vertices());
-  }
+  const auto make_room = [&] {
+    for (std::vector<Id>& arcs : found) arcs = zeros<Id>(mesh.vertices());
+  };
+  if constexpr (!is_device<Space>) make_room();
   for (int tree = 0; tree < find.count; ++tree) {
     for (const Side side : {below, above}) {
       find.trees[tree].by_node[side] = in_memory<Memory>(trees[tree][side]);
@@ -69,6 +69,7 @@ std::vector<std::vector<Id>> arcs_of_vertices(const Space& space, const Mesh& me
   }
   for (const Side side : {below, above}) find.sides[side] = sides[side];
   parallel_for("GALE::find_arcs", space, mesh.vertices(), find);
+  if constexpr (is_device<Space>) make_room();  // meanwhile
   space.fence();
   if constexpr (is_device<Space>) {
     for (int tree = 0; tree < find.count; ++tree)

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -10,6 +9,7 @@
 #include <gale/algorithms/merge_tree/tree_maker.hpp>
 #include <gale/base/memory.hpp>
 #include <gale/base/parallel.hpp>
+#include <gale/base/sort.hpp>
 
 namespace gale::detail {
 
@@ -50,7 +50,7 @@ class VertexClimbs {
     // Keys of an excerpt's order ascend with its vertices: those of places are what trees compare.
     const std::uint64_t* const small = gathered.order().keys();
     std::vector<std::uint64_t> sorted(small, small + gathered.mesh().vertices());
-    std::sort(sorted.begin(), sorted.end());
+    parallel_sort("GALE::sort_gathered_keys", sorted.begin(), sorted.end());
     const auto in_order = in_memory<Memory>(sorted);
     for (const Side side : {below, above}) {
       if (!maker.uses(side)) continue;

@@ -105,6 +105,10 @@ class WallTracer {
 
 AscendingWalls ascending_walls(Structure& structure, const DiscreteGradient& gradient, const std::vector<Id>& sources,
                                int threads) {
+  if (!sources.empty()) {  // what tracers read comes to the host here, on all threads
+    gradient.order().keys();
+    gradient.store().pairs();
+  }
   std::vector<Edge> edges;
   for (const Id place : sources) edges.push_back(gradient.critical().edges[place]);
   const auto tracers = traced(

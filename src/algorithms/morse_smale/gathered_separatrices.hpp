@@ -7,6 +7,7 @@
 
 #include <gale/algorithms/separatrices.hpp>
 #include <gale/base/parallel.hpp>
+#include <gale/base/sort.hpp>
 #include <gale/base/threads.hpp>
 
 // Separatrices that several threads find, each with a tracer of its own.
@@ -20,7 +21,8 @@ template <class Make, class Simplex, class Follow>
 auto traced(const std::vector<Simplex>& simplices, int threads, const Make& make, const Follow& follow) {
   std::vector<Id> order(simplices.size());
   std::iota(order.begin(), order.end(), Id(0));
-  std::sort(order.begin(), order.end(), [&](Id i, Id j) { return simplices[i] < simplices[j]; });
+  parallel_sort("GALE::sort_traced", order.begin(), order.end(),
+                [&](Id i, Id j) { return simplices[i] < simplices[j]; });
   std::vector<decltype(make(0))> tracers(threads);
   in_turns(threads, static_cast<std::int64_t>(order.size()), [&](int thread, std::int64_t i) {
     auto& tracer = tracers[thread];
@@ -73,7 +75,7 @@ Separatrices<Cell> gathered(const std::vector<std::unique_ptr<Tracer>>& tracers,
   copy(&Separatrices<Cell>::is_only);
   copy(&Separatrices<Cell>::joins);
   all.begin.resize(place[count] + 1);
-  all.cells.resize(cell[count]);
+  all.cells = zeros<Cell>(cell[count]);
   parallel_for("GALE::gather_cells", HostExecutionSpace(), count, [&](Offset g) {
     const auto& [part, first, size] = groups[g];
     if (size == 0) return;

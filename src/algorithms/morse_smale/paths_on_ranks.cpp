@@ -7,7 +7,6 @@
 #include <gale/base/atomic.hpp>
 #include <gale/base/error.hpp>
 #include <gale/base/memory.hpp>
-#include <gale/base/sort.hpp>
 #include <gale/mesh/exchange/messages.hpp>
 #include <gale/mesh/exchange/places.hpp>
 
@@ -17,9 +16,9 @@ namespace {
 
 /// What a rank finds of its paths by itself.
 struct PathsHere {
-  std::vector<Id> exits;         ///< ascending
-  Mirrored<Id> ends;             ///< of each simplex: the critical one's place, or after all of these the exit's
-  std::vector<char> is_reached;  ///< which exits paths from other simplices come to
+  Array<Id, HostMemory> exits;    ///< ascending
+  Mirrored<Id> ends;              ///< of each simplex: the critical one's place, or after all of these the exit's
+  Array<Id, HostMemory> reached;  ///< the places of exits that paths from other simplices come to, ascending
 };
 
 /// Marks an exit that the path from another simplex comes to.
@@ -58,62 +57,90 @@ void mark_reached(const Space& space, const MarkReached<MemoryOf<Space>>& mark) 
   }
 }
 
+/// Follows all paths, and marks the exits `others` as if other simplices' came there.
 template <class Space>
-PathsHere follow_here(const Space& space, const PathSimplices& simplices) {
+PathsHere follow_here(const Space& space, const PathSimplices& simplices, const std::vector<Id>& others) {
   using Memory = MemoryOf<Space>;
   const auto successors = simplices.successors().in<Memory>();
   const Interval inner = simplices.inner();
+  const Id criticals = static_cast<Id>(simplices.critical().size());
   const Array<Id, Memory> exits = selected(
       "GALE::find_exits", space, static_cast<Offset>(successors.extent(0)) - inner.size(),
       KOKKOS_LAMBDA(Offset i) { return successors(inner.outside(i)) == DiscreteGradient::elsewhere; });
+  const Array<Id, Memory> next = with_ends(space, simplices.successors(), simplices.critical());
   parallel_for(
-      "GALE::name_exits", space, exits.extent(0), KOKKOS_LAMBDA(Offset i) { exits(i) = inner.outside(exits(i)); });
-  space.fence();
-  const auto exits_on_host = on_host(exits);
-  PathsHere here{{exits_on_host.data(), exits_on_host.data() + exits_on_host.extent(0)}, {}, {}};
-  std::vector<Id> ends = simplices.critical();
-  ends.insert(ends.end(), here.exits.begin(), here.exits.end());
-  const Array<Id, Memory> next = with_ends(space, simplices.successors(), ends);
+      "GALE::name_exits", space, exits.extent(0), KOKKOS_LAMBDA(Offset i) {
+        exits(i) = inner.outside(exits(i));
+        next(exits(i)) = end_at(criticals + static_cast<Id>(i));
+      });
   jump(space, next);
   const auto is_reached = allocate<Array<char, Memory>>("GALE::reached_exits", exits.extent(0));
-  mark_reached(space, MarkReached<Memory>{next, exits, static_cast<Id>(simplices.critical().size()), is_reached});
+  mark_reached(space, MarkReached<Memory>{next, exits, criticals, is_reached});
+  const auto more = in_memory<Memory>(others);
+  parallel_for(
+      "GALE::reached_exits", space, more.extent(0),
+      KOKKOS_LAMBDA(Offset i) { atomic_write(&is_reached(place_of_end(next(more(i))) - criticals), char(1)); });
+  const Array<Id, Memory> reached = selected(
+      "GALE::reached_exits", space, exits.extent(0), KOKKOS_LAMBDA(Offset i) { return is_reached(i) != 0; });
   space.fence();
-  here.ends = next;
-  const auto reached_on_host = on_host(is_reached);
-  here.is_reached.assign(reached_on_host.data(), reached_on_host.data() + reached_on_host.extent(0));
-  return here;
+  return {on_host(exits), next, on_host(reached)};
 }
+
+/// The cells that have a ghost.
+template <class Space>
+Array<Id, MemoryOf<Space>> shared_cells(const Space& space, const Mesh& mesh) {
+  const CellReader cells = mesh.cell_reader<MemoryOf<Space>>();
+  const Interval owned = mesh.owned_vertices();
+  return selected(
+      "GALE::shared_cells", space, mesh.cells(), KOKKOS_LAMBDA(Offset t) {
+        const Quad corners = cells(static_cast<Id>(t));  // which ascend
+        return !owned.has(corners.a) || !owned.has(corners.d);
+      });
+}
+
+/// Finds the highest corner of each of some cells; a triangle's third one counts twice.
+template <class Memory>
+struct FindHighest {
+  CellReader corners;
+  Array<const std::uint64_t, Memory> keys;
+  Array<const Id, Memory> cells;
+  Array<Id, Memory> highest;
+
+  KOKKOS_FUNCTION void operator()(Offset i) const {
+    const Quad of = corners(cells(i));
+    Id best = of.a;
+    for (int k = 1; k < 4; ++k) {
+      if (keys(of[k]) > keys(best)) best = of[k];
+    }
+    highest(i) = best;
+  }
+};
 
 }  // namespace
 
 PathSimplices::PathSimplices(const DiscreteGradient& gradient, Kind kind)
-    : mesh_(gradient.mesh()),
+    : order_(gradient.order()),
+      mesh_(gradient.mesh()),
       are_vertices_(kind == Kind::falling_vertices),
       successors_(are_vertices_ ? gradient.store().vertex_successors() : gradient.store().cell_successors()),
       critical_(are_vertices_ ? gradient.critical().vertices : gradient.critical().cells),
       input_(are_vertices_ ? mesh().vertices_in_input() : mesh().cells_in_input()),
-      vertex_input_(mesh().vertices_in_input()),
-      keys_(are_vertices_ ? nullptr : gradient.order().keys()),
-      corners_(mesh().cell_reader()) {
+      vertex_input_(mesh().vertices_in_input()) {
   if (are_vertices_ || mesh().grid() != nullptr) return;
-  const Id cells = mesh().cells();
-  const Interval owned = mesh().owned_vertices();
-  for (Id t = 0; t < cells; ++t) {
-    const Quad corners = corners_(t);
-    if (!owned.has(corners.a) || !owned.has(corners.d))  // corners ascend
-      shared_cells_.insert(static_cast<std::uint64_t>(input_[t])).first = t;
-  }
+  const auto shared = in_worker_or_host_space(
+      mesh(), [&](const auto& space) -> Array<Id, HostMemory> { return on_host(shared_cells(space, mesh())); });
+  for (std::size_t i = 0; i < shared.extent(0); ++i)
+    shared_cells_.insert(static_cast<std::uint64_t>(input_[shared(i)])).first = shared(i);
 }
 
 PathSimplices::PathSimplices(const VertexOrder& order, const Mirrored<Id>& successors, const std::vector<Id>& ends)
-    : mesh_(order.mesh()),
+    : order_(order),
+      mesh_(order.mesh()),
       are_vertices_(true),
       successors_(successors),
       critical_(ends),
       input_(mesh_.vertices_in_input()),
-      vertex_input_(input_),
-      keys_(nullptr),
-      corners_(mesh_.cell_reader()) {}
+      vertex_input_(input_) {}
 
 std::unique_ptr<const PathSimplices> PathSimplices::make(const DiscreteGradient& gradient, Kind kind) {
   std::unique_ptr<const PathSimplices> made;
@@ -137,13 +164,36 @@ Interval PathSimplices::inner() const {
   return mesh().grid() == nullptr ? Interval{0, 0} : mesh().grid()->cells_within(owned);
 }
 
+std::vector<Id> PathSimplices::highest_corners(const std::vector<Id>& cells) const {
+  return in_worker_or_host_space(successors_.on_device(), [&](const auto& space) -> std::vector<Id> {
+    using Memory = MemoryOf<std::decay_t<decltype(space)>>;
+    const FindHighest<Memory> find{mesh().cell_reader<Memory>(), order_.keys_in<Memory>(), in_memory<Memory>(cells),
+                                   allocate<Array<Id, Memory>>("GALE::highest_corners", cells.size())};
+    parallel_for("GALE::highest_corners", space, static_cast<Offset>(cells.size()), find);
+    space.fence();
+    const auto highest = on_host(find.highest);
+    return {highest.data(), highest.data() + highest.extent(0)};
+  });
+}
+
+std::vector<int> PathSimplices::owners(const std::vector<Id>& simplices) const {
+  std::vector<int> owners(simplices.size());
+  if (simplices.empty()) return owners;
+  const std::vector<Id> corners = are_vertices_ ? std::vector<Id>() : highest_corners(simplices);
+  const std::vector<Id>& highest = are_vertices_ ? simplices : corners;
+  parallel_for("GALE::owners", HostExecutionSpace(), static_cast<Offset>(simplices.size()),
+               [&](Offset i) { owners[i] = mesh().exchange().owner(vertex_input_[highest[i]]); });
+  return owners;
+}
+
 int PathSimplices::owner(Id simplex) const {
   Id highest = simplex;
   if (!are_vertices_) {
-    const Quad corners = corners_(simplex);
+    const std::uint64_t* const keys = order_.keys();
+    const Quad corners = mesh().cell_reader()(simplex);
     highest = corners.a;
     for (const Id vertex : {corners.b, corners.c, corners.d}) {
-      if (keys_[vertex] > keys_[highest]) highest = vertex;
+      if (keys[vertex] > keys[highest]) highest = vertex;
     }
   }
   return mesh().exchange().owner(vertex_input_[highest]);
@@ -157,22 +207,29 @@ PathsOnRanks::PathsOnRanks(const PathSimplices& simplices, const std::vector<Id>
 }
 
 void PathsOnRanks::find_exits(const std::vector<Id>& others) {
-  PathsHere here = in_worker_or_host_space(simplices_.successors().on_device(),
-                                           [&](const auto& space) { return follow_here(space, simplices_); });
-  exits_ = std::move(here.exits);
+  const PathsHere here = in_worker_or_host_space(
+      simplices_.successors().on_device(), [&](const auto& space) { return follow_here(space, simplices_, others); });
+  exits_ = here.exits;
   ends_ = here.ends;
-  std::vector<char> is_reached = std::move(here.is_reached);
-  for (const Id other : others) is_reached[std::lower_bound(exits_.begin(), exits_.end(), other) - exits_.begin()] = 1;
-  for (std::size_t i = 0; i < exits_.size(); ++i) {
-    if (is_reached[i] != 0) open_.push_back(static_cast<Id>(i));
-  }
-  stops_.resize(exits_.size());
-  parallel_for("GALE::first_stops", HostExecutionSpace(), open_.size(), [&](Offset i) {
-    const Id exit = exits_[open_[i]];
-    stops_[open_[i]] = {simplices_.owner(exit), simplices_.global(exit)};
+  stops_ = allocate<Array<PathStop, HostMemory>>("GALE::path_stops", exits_.extent(0));
+  fill("GALE::path_stops", HostExecutionSpace(), stops_, PathStop());
+  begin_at(here.reached);
+}
+
+/// Begins with some exits, by their places: their paths go on from there on the ranks that own them.
+void PathsOnRanks::begin_at(const Array<Id, HostMemory>& reached) {
+  const Offset count = reached.extent(0);
+  std::vector<Id> simplices(count);
+  parallel_for("GALE::open_exits", HostExecutionSpace(), count, [&](Offset i) { simplices[i] = exits_(reached(i)); });
+  const std::vector<int> owners = simplices_.owners(simplices);
+  const auto by_id = distinct_ids(
+      tabulated<GlobalId>("GALE::ids_of_exits", count, [&](Offset i) { return simplices_.global(simplices[i]); }));
+  open_.resize(count);
+  parallel_for("GALE::first_stops", HostExecutionSpace(), count, [&](Offset i) {
+    const Id place = by_id.places(i);
+    open_[i] = reached(place);
+    stops_(open_[i]) = {owners[place], by_id.ids(i)};
   });
-  parallel_sort("GALE::sort_exits", open_.begin(), open_.end(),
-                [&](Id a, Id b) { return stops_[a].id < stops_[b].id; });
 }
 
 std::vector<Id> PathsOnRanks::ends_of(const std::vector<Id>& simplices) const {
@@ -182,17 +239,17 @@ std::vector<Id> PathsOnRanks::ends_of(const std::vector<Id>& simplices) const {
 }
 
 std::vector<Id> PathsOnRanks::exits_from(const std::vector<Id>& simplices) const {
-  std::vector<char> is_found(exits_.size(), 0);
+  std::vector<char> is_found(exits_.extent(0), 0);
   std::vector<Id> found;
   for (const Id at : ends_of(simplices)) {
-    if (at >= criticals_ && std::exchange(is_found[at - criticals_], 1) == 0) found.push_back(exits_[at - criticals_]);
+    if (at >= criticals_ && std::exchange(is_found[at - criticals_], 1) == 0) found.push_back(exits_(at - criticals_));
   }
   return found;
 }
 
 PathStop PathsOnRanks::final_stop(Id end) const {
   if (end == no_id) return {};
-  if (end >= criticals_) return stops_[end - criticals_];
+  if (end >= criticals_) return stops_(end - criticals_);
   return {PathStop::critical, simplices_.global(simplices_.critical()[end])};
 }
 
@@ -204,12 +261,12 @@ Array<const Id, HostMemory> PathsOnRanks::places_of_ends() const {
     const auto all = collected<Id>("GALE::critical_ends", ends(), [&](Offset end, const auto& add) {
       if (is_critical(static_cast<Id>(end))) add(static_cast<Id>(end));
     });
-    const auto ids = allocate<GlobalIds>("GALE::ids_of_ends", all.size());
-    parallel_for("GALE::ids_of_ends", HostExecutionSpace(), ids.extent(0),
-                 [&](Offset i) { ids(i) = final_stop(all[i]).id; });
+    const auto ids = tabulated<GlobalId>("GALE::ids_of_ends", static_cast<Offset>(all.size()),
+                                         [&](Offset i) { return final_stop(all[i]).id; });
     different = GlobalIndex(distinct_ids(ids).ids);
-    keys = allocate<decltype(keys)>("GALE::end_keys", different.count());
-    for (Offset i = 0; i < different.count(); ++i) keys(i) = {different[i], 0, 0};
+    keys = tabulated<SimplexKey>("GALE::end_keys", different.count(), [&](Offset i) {
+      return SimplexKey{different[i], 0, 0};
+    });
   });
   const PlacesOfAll found = places_of_keys(ranks(), keys);
   Array<Id, HostMemory> places;
@@ -229,8 +286,8 @@ Array<const Id, HostMemory> PathsOnRanks::places_of_ends() const {
 bool PathsOnRanks::jump() {
   if (ranks().sum(static_cast<std::int64_t>(open_.size())) == 0) return false;
   const auto next = ask_for_all<PathStop>(
-      ranks(), "GALE::next_stops", static_cast<Offset>(open_.size()), [&](Id i) { return stops_[open_[i]].rank; },
-      [&](Id i) { return stops_[open_[i]].id; },
+      ranks(), "GALE::next_stops", static_cast<Offset>(open_.size()), [&](Id i) { return stops_(open_[i]).rank; },
+      [&](Id i) { return stops_(open_[i]).id; },
       [&](const auto& asked, const auto& answers) {
         std::vector<Id> starts(asked.count());
         parallel_for("GALE::asked_starts", HostExecutionSpace(), asked.count(),
@@ -239,12 +296,13 @@ bool PathsOnRanks::jump() {
         parallel_for("GALE::answered_stops", HostExecutionSpace(), asked.count(),
                      [&](Offset i) { answers(i) = final_stop(ends[i]); });
       });
-  std::vector<Id> still;
-  for (std::size_t i = 0; i < open_.size(); ++i) {
-    stops_[open_[i]] = next(i);
-    if (!next(i).is_end()) still.push_back(open_[i]);
-  }
-  open_.swap(still);
+  together(ranks(), [&] {
+    const Offset count = static_cast<Offset>(open_.size());
+    parallel_for("GALE::next_stops", HostExecutionSpace(), count, [&](Offset i) { stops_(open_[i]) = next(i); });
+    open_ = collected<Id>("GALE::open_exits", count, [&](Offset i, const auto& add) {
+      if (!next(i).is_end()) add(open_[i]);
+    });
+  });
   ++rounds_;
   return true;
 }

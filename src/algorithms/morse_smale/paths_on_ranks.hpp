@@ -41,17 +41,21 @@ class PathSimplices {
   /// grid's.
   Interval inner() const;
 
-  /// The rank that knows the successor.
+  /// The ranks that know the successors of some simplices. Finds them where successors are.
+  std::vector<int> owners(const std::vector<Id>& simplices) const;
+
+  /// The rank that knows the successor: for few simplices, as keys and corners come to the host for cells.
   int owner(Id simplex) const;
 
  private:
+  std::vector<Id> highest_corners(const std::vector<Id>& cells) const;
+
+  const VertexOrder& order_;
   const Mesh mesh_;
   const bool are_vertices_;
   const Mirrored<Id>& successors_;
   const std::vector<Id>& critical_;
   const OtherIds input_, vertex_input_;
-  const std::uint64_t* keys_;
-  const CellReader corners_;
   HashTable<Id> shared_cells_;  ///< of cells that aren't a grid's: input cell -> GALE's, of those that have a ghost
 };
 
@@ -85,7 +89,7 @@ class PathsOnRanks {
 
   /// Exits: simplices of this rank that another one follows the paths of. Ends are numbered: first the critical ones,
   /// then the exits.
-  Id ends() const { return criticals_ + static_cast<Id>(exits_.size()); }
+  Id ends() const { return criticals_ + static_cast<Id>(exits_.extent(0)); }
 
   /// Where the paths that end here so end finally. Outside, too, of an exit that no path comes to that was asked for.
   PathStop final_stop(Id end) const;
@@ -103,14 +107,15 @@ class PathsOnRanks {
 
  private:
   void find_exits(const std::vector<Id>& others);
+  void begin_at(const Array<Id, HostMemory>& reached);
   bool jump();
 
   const PathSimplices& simplices_;
   Id criticals_;
-  std::vector<Id> exits_;  ///< ascending
+  Array<Id, HostMemory> exits_;  ///< ascending
   Mirrored<Id> ends_;
-  std::vector<PathStop> stops_;  ///< of each exit that paths come to: where these are after 2^rounds changes of ranks
-  std::vector<Id> open_;         ///< the places of those that haven't ended yet, by global id at first
+  Array<PathStop, HostMemory> stops_;  ///< of each exit: where paths from there are after 2^rounds changes of ranks
+  std::vector<Id> open_;               ///< the places of those that haven't ended yet, by global id
   int rounds_ = 0;
 };
 

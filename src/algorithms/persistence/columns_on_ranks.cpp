@@ -67,7 +67,7 @@ class FallOnRanks {
  private:
   /// One thread's part.
   struct Fall {
-    explicit Fall(const DiscreteGradient& gradient) : chain(gradient) {}
+    explicit Fall(const EdgeChain& empty) : chain(empty) {}
 
     EdgeChain chain;
     std::vector<FallenEdge> met;  ///< columns that are to fall, and the edges that they have met
@@ -79,11 +79,12 @@ class FallOnRanks {
   /// its number.
   template <class Begin>
   void fall_all(std::size_t count, const Begin& begin) {
+    if (count == 0) return;
+    const EdgeChain empty(gradient_);  // brings the gradient to the host, on all threads
     std::vector<std::unique_ptr<Fall>> falls(threads_);
     const auto fall = [&](std::size_t columns, const auto& begin_one) {
-      if (columns == 0) return;
       in_turns(threads_, static_cast<std::int64_t>(columns), [&](int thread, std::int64_t i) {
-        if (!falls[thread]) falls[thread] = std::make_unique<Fall>(gradient_);
+        if (!falls[thread]) falls[thread] = std::make_unique<Fall>(empty);
         Fall& here = *falls[thread];
         const Id column = begin_one(here.chain, i);
         fall_to_end(column, here);

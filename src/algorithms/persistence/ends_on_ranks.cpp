@@ -22,9 +22,9 @@ class Followers {
       stops.resize(starts.size());
       follow(
           static_cast<Offset>(starts.size()), [&](Offset i) { return starts[i]; }, stops.data());
-      for (std::size_t i = 0; i < stops.size(); ++i) {
-        if (stops[i].next >= 0) open.push_back(static_cast<Id>(i));
-      }
+      open = collected<Id>("GALE::open_paths", stops.size(), [&](Offset i, const auto& add) {
+        if (stops[i].next >= 0) add(static_cast<Id>(i));
+      });
     });
     while (ranks_.sum(static_cast<std::int64_t>(open.size())) != 0) {
       const auto answers = ask_for_all<Stop>(
@@ -34,17 +34,20 @@ class Followers {
             follow(
                 from.count(), [&](Offset i) { return simplices_.local(from.entries(i)); }, found.data());
           });
-      std::vector<Id> still;
-      for (std::size_t i = 0; i < open.size(); ++i) {
-        stops[open[i]] = answers(i);
-        if (answers(i).next >= 0) still.push_back(open[i]);
-      }
-      open.swap(still);
+      together(ranks_, [&] {
+        const Offset count = static_cast<Offset>(open.size());
+        parallel_for("GALE::found_ends", HostExecutionSpace(), count, [&](Offset i) { stops[open[i]] = answers(i); });
+        open = collected<Id>("GALE::open_paths", count, [&](Offset i, const auto& add) {
+          if (answers(i).next >= 0) add(open[i]);
+        });
+      });
     }
     std::vector<SentEnd> ends;
     together(ranks_, [&] {
-      reserve(ends, stops.size());
-      for (const Stop& stop : stops) ends.push_back({stop.rank, stop.place});
+      ends.resize(stops.size());
+      parallel_for("GALE::sent_ends", HostExecutionSpace(), ends.size(), [&](Offset i) {
+        ends[i] = {stops[i].rank, stops[i].place};
+      });
     });
     return ends;
   }

@@ -39,11 +39,9 @@ void sort_places(const std::uint64_t* keys, std::size_t count, const VerticesOf&
   });
 }
 
-/// The vertices of a cell, which has so many, from the highest to the lowest.
+/// The first so many corners of a cell, from the highest to the lowest.
 template <int count>
-std::array<Id, count> from_highest(const DiscreteGradient& gradient, Id cell) {
-  const Quad corners = gradient.mesh().cell_reader()(cell);
-  const std::uint64_t* const keys = gradient.order().keys();
+std::array<Id, count> from_highest(const std::uint64_t* keys, const Quad& corners) {
   std::array<Id, count> vertices;
   for (int i = 0; i < count; ++i) vertices[i] = corners[i];
   std::sort(vertices.begin(), vertices.end(), [&](Id a, Id b) { return keys[a] > keys[b]; });
@@ -66,6 +64,7 @@ Filtration filtration_of(const DiscreteGradient& gradient, int threads) {
   const ThreadLimit limit(threads);
   const CriticalSimplices& critical = gradient.critical();
   const std::uint64_t* const keys = gradient.order().keys();
+  const CellReader corners = gradient.mesh().cell_reader();
   Filtration filtration;
   const auto sort = [&](int dimension, const auto& vertices_of) {
     sort_places(keys, critical.counts()[dimension], vertices_of, filtration.by_rank[dimension],
@@ -74,10 +73,10 @@ Filtration filtration_of(const DiscreteGradient& gradient, int threads) {
   sort(0, [&](Offset i) { return std::array<Id, 1>{critical.vertices[i]}; });
   sort(1, [&](Offset i) { return critical.edges[i]; });
   if (critical.dimension == 2) {
-    sort(2, [&](Offset i) { return from_highest<3>(gradient, critical.cells[i]); });
+    sort(2, [&](Offset i) { return from_highest<3>(keys, corners(critical.cells[i])); });
   } else {
     sort(2, [&](Offset i) { return critical.triangles[i]; });
-    sort(3, [&](Offset i) { return from_highest<4>(gradient, critical.cells[i]); });
+    sort(3, [&](Offset i) { return from_highest<4>(keys, corners(critical.cells[i])); });
   }
   return filtration;
 }

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <memory>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -11,6 +10,7 @@
 #include <gale/algorithms/persistence/columns_on_ranks.hpp>
 #include <gale/algorithms/persistence/ends_on_ranks.hpp>
 #include <gale/algorithms/persistence/simplices_of_all.hpp>
+#include <gale/base/parallel.hpp>
 #include <gale/base/threads.hpp>
 #include <gale/mesh/exchange/global_index.hpp>
 
@@ -86,12 +86,15 @@ class PairsOnRanks {
     for (int d = 0; d <= mesh_.dimension(); ++d) {
       auto received = to_first(ranks_, "GALE::critical_of_all", own[d]);
       together(ranks_, [&] {
-        all_[d].emplace(std::move(received));
-        reserve(filtration_.by_rank[d], all_[d]->from_rank.size());
-        for (const Id entry : all_[d]->from_rank) filtration_.by_rank[d].push_back(all_[d]->place.entries(entry));
-        filtration_.rank[d].resize(filtration_.by_rank[d].size());
-        for (std::size_t i = 0; i < filtration_.rank[d].size(); ++i)
-          filtration_.rank[d][filtration_.by_rank[d][i]] = static_cast<Id>(i);
+        const SimplicesOfAll& all = all_[d].emplace(std::move(received));
+        std::vector<Id>& by_rank = filtration_.by_rank[d];
+        std::vector<Id>& rank = filtration_.rank[d];
+        by_rank = zeros<Id>(all.from_rank.size());
+        rank = zeros<Id>(all.from_rank.size());
+        parallel_for("GALE::filtration_of_all", HostExecutionSpace(), by_rank.size(), [&](Offset i) {
+          by_rank[i] = all.place.entries(all.from_rank[i]);
+          rank[by_rank[i]] = static_cast<Id>(i);
+        });
       });
     }
     highest_ = to_first(ranks_, "GALE::highest_of_all", highest);
@@ -99,43 +102,54 @@ class PairsOnRanks {
 
   /// Makes a mesh of the vertices that are the highest of critical simplices.
   Mesh name_highest(HighestVertices& highest) const {
-    std::vector<GlobalId> names;
-    reserve(names, std::accumulate(all_.begin(), all_.begin() + mesh_.dimension() + 1, Offset(1),
-                                   [](Offset sum, const All& all) { return sum + all->sent.count(); }));
-    for (int d = 0; d <= mesh_.dimension(); ++d) {
-      for (Offset i = 0; i < all_[d]->sent.count(); ++i) names.push_back(all_[d]->sent.entries(i).highest());
-    }
     const SentSimplex* last = nullptr;
     for (Offset i = 0; i < highest_.count(); ++i) {
       const SentSimplex& one = highest_.entries(i);
       if (last == nullptr || std::make_pair(last->value, last->highest()) < std::make_pair(one.value, one.highest()))
         last = &one;
     }
-    if (last != nullptr) names.push_back(last->highest());
-    const GlobalIds ids = distinct_of("GALE::highest_ids", std::move(names));
+    const GlobalIds ids = distinct_ids(highest_names(last)).ids;
     const GlobalIndex index(ids);
     highest.dimension = mesh_.dimension();
     if (last != nullptr) highest.of_all = index.find(last->highest());
     for (int d = 0; d <= mesh_.dimension(); ++d) {
-      highest.of_critical[d].resize(all_[d]->sent.count());
-      for (Offset i = 0; i < all_[d]->sent.count(); ++i)
-        highest.of_critical[d][all_[d]->place.entries(i)] = index.find(all_[d]->sent.entries(i).highest());
+      const SimplicesOfAll& all = *all_[d];
+      std::vector<Id>& of_critical = highest.of_critical[d];
+      of_critical.resize(all.sent.count());
+      parallel_for("GALE::highest_of_critical", HostExecutionSpace(), all.sent.count(),
+                   [&](Offset i) { of_critical[all.place.entries(i)] = index.find(all.sent.entries(i).highest()); });
     }
     const auto no_cells = allocate<GlobalIds>("GALE::no_cells", 0);
     return mesh_.dimension() == 3 ? excerpt_mesh<4>(ids, no_cells, CellCorners<4, Id, HostMemory>())
                                   : excerpt_mesh<3>(ids, no_cells, CellCorners<3, Id, HostMemory>());
   }
 
+  /// The highest vertices of critical simplices, and that of `last`, if there is one; some several times.
+  GlobalIds highest_names(const SentSimplex* last) const {
+    Offset count = last == nullptr ? 0 : 1;
+    for (int d = 0; d <= mesh_.dimension(); ++d) count += all_[d]->sent.count();
+    const auto names = allocate<GlobalIds>("GALE::highest_names", count);
+    Offset begin = 0;
+    for (int d = 0; d <= mesh_.dimension(); ++d) {
+      const EntriesByRank<SentSimplex>& sent = all_[d]->sent;
+      parallel_for("GALE::highest_names", HostExecutionSpace(), sent.count(),
+                   [&](Offset i) { names(begin + i) = sent.entries(i).highest(); });
+      begin += sent.count();
+    }
+    if (last != nullptr) names(begin) = last->highest();
+    return names;
+  }
+
   /// The ends of saddles' paths by places.
   static PathEnds ends_in(const EntriesByRank<SentEnds>& sent, const All& saddles, const All& extrema) {
     PathEnds ends(sent.count(), {no_id, no_id});
-    for (Offset i = 0; i < sent.count(); ++i) {
+    parallel_for("GALE::ends_of_all", HostExecutionSpace(), sent.count(), [&](Offset i) {
       for (int k = 0; k < 2; ++k) {
         const SentEnd& end = sent.entries(i)[k];
         if (end.rank == SentEnd::outside) continue;
         ends[saddles->place.entries(i)][k] = extrema->place.entries(extrema->place.begin[end.rank] + end.place);
       }
-    }
+    });
     return ends;
   }
 
@@ -148,7 +162,8 @@ class PairsOnRanks {
       for (const Id column : columns) is_column[column] = 1;
       const auto& place = all_[2]->place;
       marks = room_by_rank<char>("GALE::columns", counts_of(place));
-      for (Offset i = 0; i < place.count(); ++i) marks.entries(i) = is_column[place.entries(i)];
+      parallel_for("GALE::columns", HostExecutionSpace(), place.count(),
+                   [&](Offset i) { marks.entries(i) = is_column[place.entries(i)]; });
     });
     const auto received = exchange(ranks_, "GALE::own_columns", marks);
     std::vector<Id> own;

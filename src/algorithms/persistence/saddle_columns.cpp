@@ -8,8 +8,8 @@ namespace gale::detail {
 /// One thread's part.
 class SaddleColumns::Reducer {
  public:
-  Reducer(const DiscreteGradient& gradient, const CriticalPlaces& places, SaddleColumns& all)
-      : places_(places), owners_(all.owners_), chain_(gradient) {}
+  Reducer(const EdgeChain& empty, const CriticalPlaces& places, SaddleColumns& all)
+      : places_(places), owners_(all.owners_), chain_(empty) {}
 
   void reduce(Id rank, const std::array<Id, 3>& triangle) {
     chain_.clear();
@@ -48,12 +48,14 @@ class SaddleColumns::Reducer {
 SaddleColumns::SaddleColumns(const DiscreteGradient& gradient, const CriticalPlaces& places,
                              const Filtration& filtration, const std::vector<Id>& columns, int threads)
     : owners_(gradient.critical().edges.size()), reducers_(threads) {
+  if (columns.empty()) return;
+  const EdgeChain empty(gradient);  // brings the gradient to the host, on all threads
   const auto& triangles = gradient.critical().triangles;
   constexpr std::int64_t block = 64;
   const auto count = static_cast<std::int64_t>(columns.size());
   in_turns(threads, (count + block - 1) / block, [&](int thread, std::int64_t b) {
     auto& reducer = reducers_[thread];
-    if (!reducer) reducer = std::make_unique<Reducer>(gradient, places, *this);
+    if (!reducer) reducer = std::make_unique<Reducer>(empty, places, *this);
     for (std::int64_t i = b * block; i < std::min((b + 1) * block, count); ++i)
       reducer->reduce(filtration.rank[2][columns[i]], triangles[columns[i]]);
   });

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 #include <gale/algorithms/persistence/simplices_of_all.hpp>
@@ -81,14 +80,20 @@ std::vector<SentSimplex> highest_to_send(const DiscreteGradient& gradient) {
 }
 
 SimplicesOfAll::SimplicesOfAll(EntriesByRank<SentSimplex> from) : sent(std::move(from)), place{{}, sent.begin} {
-  std::vector<Id> order(sent.count());
-  std::iota(order.begin(), order.end(), Id(0));
-  place.entries = allocate<Array<Id, HostMemory>>("GALE::places_of_all", sent.count());
+  const Offset count = sent.count();
+  auto order = zeros<Id>(count);
+  const auto for_each = [&](const auto& body) {
+    parallel_for("GALE::places_of_all", HostExecutionSpace(), count, body);
+  };
+  for_each([&](Offset i) { order[i] = static_cast<Id>(i); });
+  place.entries = allocate<Array<Id, HostMemory>>("GALE::places_of_all", count);
   const auto by_name = merged(sent, order, [](const auto& a, const auto& b) { return a.name < b.name; });
-  for (std::size_t i = 0; i < by_name.size(); ++i) place.entries(by_name[i]) = static_cast<Id>(i);
+  for_each([&](Offset i) { place.entries(by_name[i]) = static_cast<Id>(i); });
   for (std::size_t r = 0; r + 1 < sent.begin.size(); ++r) {
-    for (Offset i = sent.begin[r]; i < sent.begin[r + 1]; ++i)
+    parallel_for("GALE::own_order", HostExecutionSpace(), sent.count(static_cast<int>(r)), [&](Offset k) {
+      const Offset i = sent.begin[r] + k;
       order[sent.begin[r] + sent.entries(i).rank] = static_cast<Id>(i);
+    });
   }
   from_rank = merged(sent, std::move(order), [](const auto& a, const auto& b) {
     return a.value != b.value ? a.value < b.value : a.highest() < b.highest();

@@ -75,22 +75,25 @@ EntriesByRank<T> exchange_packed(const Ranks& ranks, const char* label, const En
                 "integers alone, without gaps between them");
   constexpr int width = sizeof(T) / sizeof(std::uint32_t);
   const int here = ranks.rank();
-  const auto for_each_other = [&](Offset entries, const auto& body) {
-    in_turns(threads_for(entries), ranks.size(), [&](int, std::int64_t rank) {
-      if (rank != here) body(static_cast<int>(rank));
-    });
+  const auto for_each_other = [&](const EntriesByRank<T>& entries, const auto& body) {
+    const auto visit = [&](int rank, bool are_many) {
+      if (rank != here && are_many_to_pack(entries.count(rank)) == are_many) body(rank);
+    };
+    for (int rank = 0; rank < ranks.size(); ++rank) visit(rank, true);  // by all threads
+    in_turns(threads_for(entries.count()), ranks.size(),
+             [&](int, std::int64_t rank) { visit(static_cast<int>(rank), false); });
   };
   EntriesByRank<char> packed;
   together(ranks, [&] {
-    std::vector<std::vector<char>> bytes(ranks.size());
-    for_each_other(sent.count(), [&](int rank) {
-      bytes[rank] = pack_rows(sent.entries.data() + sent.begin[rank], sent.count(rank), width);
+    std::vector<PackedPieces> pieces(ranks.size());
+    for_each_other(sent, [&](int rank) {
+      pieces[rank] = pack_rows(sent.entries.data() + sent.begin[rank], sent.count(rank), width);
     });
     std::vector<std::int64_t> counts;
-    for (const auto& some : bytes) counts.push_back(static_cast<std::int64_t>(some.size()));
+    for (const PackedPieces& some : pieces) counts.push_back(bytes_of(some));
     packed = room_by_rank<char>(label, counts);
     for (int rank = 0; rank < ranks.size(); ++rank)
-      std::copy(bytes[rank].begin(), bytes[rank].end(), packed.entries.data() + packed.begin[rank]);
+      write_pieces(pieces[rank], packed.entries.data() + packed.begin[rank]);
   });
   const EntriesByRank<char> received = exchange(ranks, label, packed);
   EntriesByRank<T> unpacked;
@@ -102,7 +105,7 @@ EntriesByRank<T> exchange_packed(const Ranks& ranks, const char* label, const En
     unpacked = room_by_rank<T>(label, counts);
     const auto to = [&](int rank) { return unpacked.entries.data() + unpacked.begin[rank]; };
     std::copy_n(sent.entries.data() + sent.begin[here], sent.count(here), to(here));
-    for_each_other(unpacked.count(), [&](int rank) { unpack_rows(from(rank), received.count(rank), width, to(rank)); });
+    for_each_other(unpacked, [&](int rank) { unpack_rows(from(rank), received.count(rank), width, to(rank)); });
   });
   return unpacked;
 }

@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <cstring>
 
+#include <gale/base/threads.hpp>
 #include <gale/mesh/exchange/packed_rows.hpp>
 
 namespace gale::detail {
@@ -42,39 +43,109 @@ char* write_difference(std::uint32_t difference, std::int64_t more, char* to) {
   return more > 0 ? write_number(static_cast<std::uint64_t>(more), to) : to;
 }
 
-}  // namespace
-
-std::vector<char> pack_rows(const void* words, std::int64_t rows, int width) {
+/// Packs a column of rows from its first word on.
+std::vector<char> pack_column(const char* at, std::int64_t rows, int width) {
   // A difference takes 5 bytes at most, and with the count of its repetitions no more than its rows would.
   constexpr std::int64_t rows_at_once = 4096, most_of_word = 5, most_of_number = 9;
-  if (rows == 0) return {};
-  std::vector<char> bytes(most_of_number);
-  char* to = write_number(static_cast<std::uint64_t>(rows), bytes.data());
-  for (int column = 0; column < width; ++column) {
-    const char* at = static_cast<const char*>(words) + column * word_bytes;
-    std::uint32_t last = 0, difference = 0;
-    std::int64_t more = -1;  // no difference yet
-    for (std::int64_t row = 0; row < rows;) {
-      const auto used = static_cast<std::size_t>(to - bytes.data());
-      const std::int64_t end = std::min(row + rows_at_once, rows);
-      bytes.resize(used + static_cast<std::size_t>(most_of_word * (end - row) + 2 * (most_of_word + most_of_number)));
-      to = bytes.data() + used;
-      for (; row < end; ++row, at += width * word_bytes) {
-        const std::uint32_t word = word_at(at), next = word - last;
-        last = word;
-        if (more >= 0 && next == difference) {
-          ++more;
-          continue;
-        }
-        if (more >= 0) to = write_difference(difference, more, to);
-        difference = next;
-        more = 0;
+  std::vector<char> bytes;
+  char* to = bytes.data();
+  std::uint32_t last = 0, difference = 0;
+  std::int64_t more = -1;  // no difference yet
+  for (std::int64_t row = 0; row < rows;) {
+    const auto used = static_cast<std::size_t>(to - bytes.data());
+    const std::int64_t end = std::min(row + rows_at_once, rows);
+    bytes.resize(used + static_cast<std::size_t>(most_of_word * (end - row) + 2 * (most_of_word + most_of_number)));
+    to = bytes.data() + used;
+    for (; row < end; ++row, at += width * word_bytes) {
+      const std::uint32_t word = word_at(at), next = word - last;
+      last = word;
+      if (more >= 0 && next == difference) {
+        ++more;
+        continue;
       }
+      if (more >= 0) to = write_difference(difference, more, to);
+      difference = next;
+      more = 0;
     }
-    to = write_difference(difference, more, to);
   }
+  to = write_difference(difference, more, to);
   bytes.resize(static_cast<std::size_t>(to - bytes.data()));
   return bytes;
+}
+
+/// Unpacks a column of rows to its first word and on. Returns where it ends.
+const char* unpack_column(const char* from, std::int64_t rows, int width, char* to) {
+  std::uint32_t last = 0;
+  for (std::int64_t row = 0; row < rows;) {
+    const std::uint64_t number = read_number(from);
+    const std::uint32_t difference = unfolded(static_cast<std::uint32_t>(number >> 1));
+    const std::int64_t same = 1 + ((number & 1) != 0 ? static_cast<std::int64_t>(read_number(from)) : 0);
+    for (std::int64_t i = 0; i < same; ++i, to += width * word_bytes) {
+      last += difference;
+      std::memcpy(to, &last, word_bytes);
+    }
+    row += same;
+  }
+  return from;
+}
+
+/// The parts of columns that are packed by themselves, column after column.
+struct ColumnParts {
+  static constexpr std::int64_t most_rows = std::int64_t(1) << 17;
+
+  std::int64_t rows;
+  int width;
+
+  std::int64_t of_column() const { return (rows - 1) / most_rows + 1; }
+  std::int64_t count() const { return width * of_column(); }
+  std::int64_t first_row(std::int64_t part) const { return part % of_column() * most_rows; }
+  std::int64_t rows_of(std::int64_t part) const { return std::min(rows - first_row(part), most_rows); }
+
+  /// Where its first word is among all, in bytes.
+  std::int64_t begin(std::int64_t part) const { return (first_row(part) * width + part / of_column()) * word_bytes; }
+};
+
+/// Calls body(i) for i in 0..n-1, on all threads if that is worth it.
+template <class Body>
+void for_each_piece(bool are_many, std::int64_t n, const Body& body) {
+  in_turns(are_many ? host_threads() : 1, n, [&](int, std::int64_t i) { body(i); });
+}
+
+}  // namespace
+
+PackedPieces pack_rows(const void* words, std::int64_t rows, int width) {
+  if (rows == 0) return {};
+  const ColumnParts parts{rows, width};
+  const char* const first = static_cast<const char*>(words);
+  PackedPieces pieces(1 + parts.count());
+  for_each_piece(are_many_to_pack(rows), parts.count(), [&](std::int64_t part) {
+    pieces[1 + part] = pack_column(first + parts.begin(part), parts.rows_of(part), width);
+  });
+  const auto add = [&](std::int64_t number) {
+    char bytes[10];
+    pieces[0].insert(pieces[0].end(), bytes, write_number(static_cast<std::uint64_t>(number), bytes));
+  };
+  add(rows);
+  if (!are_many_to_pack(rows)) return pieces;
+  for (std::int64_t part = 0; part < parts.count(); ++part) add(static_cast<std::int64_t>(pieces[1 + part].size()));
+  return pieces;
+}
+
+std::int64_t bytes_of(const PackedPieces& pieces) {
+  std::int64_t bytes = 0;
+  for (const std::vector<char>& piece : pieces) bytes += static_cast<std::int64_t>(piece.size());
+  return bytes;
+}
+
+void write_pieces(const PackedPieces& pieces, char* to) {
+  constexpr std::int64_t many_bytes = 1 << 16;
+  std::vector<char*> begin;
+  for (const std::vector<char>& piece : pieces) {
+    begin.push_back(to);
+    to += piece.size();
+  }
+  for_each_piece(bytes_of(pieces) > many_bytes, static_cast<std::int64_t>(pieces.size()),
+                 [&](std::int64_t i) { std::copy(pieces[i].begin(), pieces[i].end(), begin[i]); });
 }
 
 std::int64_t packed_rows(const char* bytes, std::int64_t count) {
@@ -83,21 +154,19 @@ std::int64_t packed_rows(const char* bytes, std::int64_t count) {
 
 void unpack_rows(const char* bytes, std::int64_t count, int width, void* words) {
   if (count == 0) return;
-  const auto rows = static_cast<std::int64_t>(read_number(bytes));
-  for (int column = 0; column < width; ++column) {
-    char* to = static_cast<char*>(words) + column * word_bytes;
-    std::uint32_t last = 0;
-    for (std::int64_t row = 0; row < rows;) {
-      const std::uint64_t number = read_number(bytes);
-      const std::uint32_t difference = unfolded(static_cast<std::uint32_t>(number >> 1));
-      const std::int64_t same = 1 + ((number & 1) != 0 ? static_cast<std::int64_t>(read_number(bytes)) : 0);
-      for (std::int64_t i = 0; i < same; ++i, to += width * word_bytes) {
-        last += difference;
-        std::memcpy(to, &last, word_bytes);
-      }
-      row += same;
-    }
+  const ColumnParts parts{static_cast<std::int64_t>(read_number(bytes)), width};
+  char* const first = static_cast<char*>(words);
+  const auto unpack = [&](std::int64_t part, const char* from) {
+    return unpack_column(from, parts.rows_of(part), width, first + parts.begin(part));
+  };
+  if (!are_many_to_pack(parts.rows)) {
+    for (std::int64_t part = 0; part < parts.count(); ++part) bytes = unpack(part, bytes);
+    return;
   }
+  std::vector<std::int64_t> begin(1, 0);
+  for (std::int64_t part = 0; part < parts.count(); ++part)
+    begin.push_back(begin.back() + static_cast<std::int64_t>(read_number(bytes)));
+  for_each_piece(true, parts.count(), [&](std::int64_t part) { unpack(part, bytes + begin[part]); });
 }
 
 }  // namespace gale::detail

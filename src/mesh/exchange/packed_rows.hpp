@@ -9,16 +9,26 @@
 
 namespace gale::detail {
 
+/// What lies in a message one after the other.
+using PackedPieces = std::vector<std::vector<char>>;
+
 /// Packs `rows` rows of `width` 32-bit words each, which may be parts of larger numbers. Each column by itself is
 /// written as differences from row to row, modulo 2^32, the first from 0: a difference and how many more rows have the
 /// same, as numbers of 7 bits a byte. Ids one after the other, or all the same, take a few bytes; random words 1.25
-/// times what they took.
-GALE_EXPORT std::vector<char> pack_rows(const void* words, std::int64_t rows, int width);
+/// times what they took. Many rows are packed by all threads: each column, or part of it, by itself.
+GALE_EXPORT PackedPieces pack_rows(const void* words, std::int64_t rows, int width);
+
+/// Whether that many rows keep several threads busy.
+constexpr bool are_many_to_pack(std::int64_t rows) { return rows > 1 << 15; }
+
+/// How many bytes the pieces have together, and these one after the other, written by all threads.
+GALE_EXPORT std::int64_t bytes_of(const PackedPieces& pieces);
+GALE_EXPORT void write_pieces(const PackedPieces& pieces, char* to);
 
 /// How many rows were packed into these bytes, which may be none.
 GALE_EXPORT std::int64_t packed_rows(const char* bytes, std::int64_t count);
 
-/// Unpacks all rows of what pack_rows has made of rows as wide.
+/// Unpacks all rows of what pack_rows has made of rows as wide, by all threads where they are many.
 GALE_EXPORT void unpack_rows(const char* bytes, std::int64_t count, int width, void* words);
 
 }  // namespace gale::detail
