@@ -258,14 +258,17 @@ Mesh DistributedMesh::Sharing::deal(MeshPart<Index> part, const PartitionOptions
   std::optional<detail::VertexDirectory> directory = directory_of(ranks_, part, options.repartition);
   detail::OwnedVertices all_owned = directory->owned();
   const detail::OwnedIds& owned = all_owned.ids;
-  // What a rank owns as it hands it over gets its segments on a device while cells travel.
+  detail::ReadCells<WorkerMemory> read;
+  detail::together(ranks_, [&] { read = detail::read_cells(part, owned.interval); });
+  // What a rank owns as it hands it over gets its segments on a device while ranks exchange cells.
   const bool in_place = directory->given() && !owned.interval.is_empty();
   std::future<Segmentation> segments;
   if (have_device && in_place) {
     const Offset place = owned.interval.begin - directory->given()->of(ranks_.rank()).begin;
     segments = octree_meanwhile(part.points.part(place, owned.count()), options.capacity);
   }
-  const detail::LocalCells<Index> held_cells(ranks_, part, *directory, owned.interval, options.most_local);
+  const detail::LocalCells<Index> held_cells(ranks_, part, *directory, owned.interval, read.outer, options.most_local);
+  read.outer = {};
   detail::together(ranks_, [&] { held_ = detail::LocalVertices(owned, held_cells.vertices_beside(owned)); });
   detail::require_local(ranks_, "vertices", held_.count(), options.most_local);
   vertices_ = directory->vertices();
@@ -280,7 +283,7 @@ Mesh DistributedMesh::Sharing::deal(MeshPart<Index> part, const PartitionOptions
     const Segmentation own = segments.valid() ? segments.get() : detail::octree_of(placed_.owned, options.capacity);
     const Segmentation ghosts = detail::octree_of(placed_.ghosts, options.capacity);
     const Segmentation segmentation = detail::local_segmentation(held_, own, ghosts);
-    mesh = detail::local_mesh(held_cells, held_, segmentation, self);
+    mesh = detail::local_mesh(held_cells, held_, std::exchange(read.rows, {}), segmentation, self);
   });
   return *mesh;
 }

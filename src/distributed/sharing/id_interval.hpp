@@ -115,6 +115,17 @@ class IndexInterval {
     return farthest < size_;
   }
 
+  /// Writes the place in the interval of each that it contains, of others anything. Returns whether it contains all.
+  bool write_places(const Index* ids, Offset count, Id* to) const {
+    Unsigned farthest = 0;
+    for (Offset i = 0; i < count; ++i) {
+      const Unsigned place = static_cast<Unsigned>(ids[i]) - begin_;
+      farthest = std::max(farthest, place);
+      to[i] = static_cast<Id>(place);
+    }
+    return count == 0 || farthest < size_;
+  }
+
  private:
   Unsigned begin_ = 0, size_ = 0;
 };
