@@ -51,7 +51,15 @@ void require_global_ids(const Ids& ids) {
   throw Error("ids are " + bounds + ", not " + std::to_string(ids(bad)));
 }
 
-/// Throws gale::Error for what one rank can see is wrong with its part but for the cells' vertices.
+/// The interval of a part's vertices if they are one, in order. Throws gale::Error for an id that is none.
+std::optional<detail::IdInterval> valid_interval(const Array<const GlobalId, HostMemory>& ids) {
+  const auto interval = detail::counted_interval(ids);
+  const bool are_valid = interval && (ids.extent(0) == 0 || (ids(0) >= 0 && ids(ids.extent(0) - 1) <= greatest_id));
+  if (!are_valid) require_global_ids(ids);
+  return interval;
+}
+
+/// Throws gale::Error for what one rank can see is wrong with its part but for ids of vertices.
 template <class Index>
 void validate(const MeshPart<Index>& part) {
   require_ids("vertices", static_cast<Offset>(part.vertex_ids.extent(0)));
@@ -59,7 +67,6 @@ void validate(const MeshPart<Index>& part) {
   const std::size_t corners = part.cells.extent(1);
   if (part.cells.extent(0) > 0 && corners != 3 && corners != 4)
     throw Error("cells have 3 vertices or 4, not " + std::to_string(corners));
-  require_global_ids(part.vertex_ids);
   require_global_ids(part.cell_ids);
   part.points.visit([](const auto& rows) {
     detail::require_finite<typename std::decay_t<decltype(rows)>::non_const_value_type>(HostExecutionSpace(), rows);
@@ -92,11 +99,12 @@ std::future<Segmentation> octree_meanwhile(const HostPoints& points, int capacit
   });
 }
 
-/// Who hands over and owns which vertex.
+/// Who hands over and owns which vertex. `ids`: the interval of those that this rank hands over, if they are one.
 template <class Index>
-detail::VertexDirectory directory_of(const Communicator& ranks, const MeshPart<Index>& part, bool repartition) {
+detail::VertexDirectory directory_of(const Communicator& ranks, const MeshPart<Index>& part,
+                                     const std::optional<detail::IdInterval>& ids, bool repartition) {
   if (repartition) return {ranks, part.vertex_ids, detail::curve_partition(ranks, part.vertex_ids, part.points)};
-  if (const auto given = detail::GivenIntervals::of(ranks, part.vertex_ids)) return {ranks, *given};
+  if (const auto given = detail::GivenIntervals::of(ranks, ids)) return {ranks, *given};
   Array<int, HostMemory> owners;
   detail::together(ranks, [&] {
     owners =
@@ -229,9 +237,13 @@ detail::ExchangePlan::Run DistributedMesh::Sharing::share(const detail::VertexDi
   from_givers_ = detail::ExchangePlan(
       ranks_, run, slots, [&](Id i) { return entries(i).giver; }, [&](Id i) { return entries(i).place; },
       [](GlobalId place) { return static_cast<Id>(place); });
-  from_owners_ = detail::ExchangePlan(
-      ranks_, {}, ghosts, [&](Id i) { return ghost_owners_(i); }, [&](Id i) { return held_.ghosts()(i); },
-      [&](GlobalId id) { return held_.find(id); });
+  // Where all know that a ghost comes from its owner, the same values travel.
+  const bool gives_own = directory.given() && (in_place || held_.owned_count() == 0);
+  from_owners_ = ranks_.least(std::int64_t(gives_own)) == 1
+                     ? from_givers_.between_slots()
+                     : detail::ExchangePlan(
+                           ranks_, {}, ghosts, [&](Id i) { return ghost_owners_(i); },
+                           [&](Id i) { return held_.ghosts()(i); }, [&](GlobalId id) { return held_.find(id); });
   return run;
 }
 
@@ -252,10 +264,14 @@ detail::OwnAndGhosts DistributedMesh::Sharing::share_points(const HostPoints& gi
 template <class Index>
 Mesh DistributedMesh::Sharing::deal(MeshPart<Index> part, const PartitionOptions& options,
                                     const std::shared_ptr<const Exchange>& self) {
-  detail::together(ranks_, [&] { validate(part); });
+  std::optional<detail::IdInterval> ids;
+  detail::together(ranks_, [&] {
+    validate(part);
+    ids = valid_interval(part.vertex_ids);
+  });
   const int corners_of_each = corners_of_all(ranks_, part);
   if (part.cells.extent(0) == 0) part.cells = CellRows<Index>(nullptr, 0, corners_of_each);
-  std::optional<detail::VertexDirectory> directory = directory_of(ranks_, part, options.repartition);
+  std::optional<detail::VertexDirectory> directory = directory_of(ranks_, part, ids, options.repartition);
   detail::OwnedVertices all_owned = directory->owned();
   const detail::OwnedIds& owned = all_owned.ids;
   detail::ReadCells<WorkerMemory> read;
