@@ -1,17 +1,16 @@
 #include <algorithm>
 #include <functional>
-#include <future>
 #include <memory>
 #include <optional>
 #include <string>
 
-#include <gale/base/device.hpp>
 #include <gale/base/error.hpp>
 #include <gale/base/mirrored.hpp>
 #include <gale/distributed/distributed_mesh.hpp>
 #include <gale/distributed/sharing/local_grid.hpp>
 #include <gale/distributed/sharing/local_mesh.hpp>
 #include <gale/distributed/sharing/local_vertices.hpp>
+#include <gale/distributed/sharing/own_octree.hpp>
 #include <gale/distributed/sharing/vertex_directory.hpp>
 #include <gale/mesh/exchange/exchange_plan.hpp>
 #include <gale/mesh/octree.hpp>
@@ -59,7 +58,7 @@ std::optional<detail::IdInterval> valid_interval(const Array<const GlobalId, Hos
   return interval;
 }
 
-/// Throws gale::Error for what one rank can see is wrong with its part but for ids of vertices.
+/// Throws gale::Error for what one rank can see is wrong with its part but for vertices.
 template <class Index>
 void validate(const MeshPart<Index>& part) {
   require_ids("vertices", static_cast<Offset>(part.vertex_ids.extent(0)));
@@ -68,9 +67,6 @@ void validate(const MeshPart<Index>& part) {
   if (part.cells.extent(0) > 0 && corners != 3 && corners != 4)
     throw Error("cells have 3 vertices or 4, not " + std::to_string(corners));
   require_global_ids(part.cell_ids);
-  part.points.visit([](const auto& rows) {
-    detail::require_finite<typename std::decay_t<decltype(rows)>::non_const_value_type>(HostExecutionSpace(), rows);
-  });
 }
 
 /// How many vertices the cells of all ranks have. Collective; throws SharedError where they differ, and for no cells.
@@ -87,16 +83,6 @@ int corners_of_all(const Communicator& ranks, const MeshPart<Index>& part) {
                       " has triangles, rank " + std::to_string(tetrahedra) + " tetrahedra");
   }
   return triangles < none ? 3 : 4;
-}
-
-/// The octree of some points, which grows on a thread of its own, by a quarter of this one's threads.
-std::future<Segmentation> octree_meanwhile(const HostPoints& points, int capacity) {
-  const int few = std::max(host_threads() / 4, 1);
-  return std::async(std::launch::async | std::launch::deferred, [points, capacity, few] {
-    use_device();
-    const ThreadLimit limit(few);
-    return detail::octree_of(points, capacity);
-  });
 }
 
 /// Who hands over and owns which vertex. `ids`: the interval of those that this rank hands over, if they are one.
@@ -274,15 +260,13 @@ Mesh DistributedMesh::Sharing::deal(MeshPart<Index> part, const PartitionOptions
   std::optional<detail::VertexDirectory> directory = directory_of(ranks_, part, ids, options.repartition);
   detail::OwnedVertices all_owned = directory->owned();
   const detail::OwnedIds& owned = all_owned.ids;
+  detail::OwnOctree octree(part.points, *directory, owned.interval, ranks_.rank());
   detail::ReadCells<WorkerMemory> read;
-  detail::together(ranks_, [&] { read = detail::read_cells(part, owned.interval); });
-  // What a rank owns as it hands it over gets its segments on a device while ranks exchange cells.
-  const bool in_place = directory->given() && !owned.interval.is_empty();
-  std::future<Segmentation> segments;
-  if (have_device && in_place) {
-    const Offset place = owned.interval.begin - directory->given()->of(ranks_.rank()).begin;
-    segments = octree_meanwhile(part.points.part(place, owned.count()), options.capacity);
-  }
+  detail::together(ranks_, [&] {
+    octree.require_finite();
+    read = detail::read_cells(part, owned.interval);
+  });
+  octree.begin(options.capacity);
   const detail::LocalCells<Index> held_cells(ranks_, part, *directory, owned.interval, read.outer, options.most_local);
   read.outer = {};
   detail::together(ranks_, [&] { held_ = detail::LocalVertices(owned, held_cells.vertices_beside(owned)); });
@@ -292,11 +276,12 @@ Mesh DistributedMesh::Sharing::deal(MeshPart<Index> part, const PartitionOptions
   given_ = directory->given();
   placed_ = share_points(part.points, share(*directory, std::exchange(all_owned.entries, {})));
   directory.reset();
+  Segmentation own;
+  detail::together(ranks_, [&] { own = octree.get(placed_.owned, options.capacity); });
   std::optional<Mesh> mesh;
   detail::together(ranks_, [&] {
     places_ = held_cells.places();
     if (options.keep_corners) corners = detail::local_corners(held_cells, held_);
-    const Segmentation own = segments.valid() ? segments.get() : detail::octree_of(placed_.owned, options.capacity);
     const Segmentation ghosts = detail::octree_of(placed_.ghosts, options.capacity);
     const Segmentation segmentation = detail::local_segmentation(held_, own, ghosts);
     mesh = detail::local_mesh(held_cells, held_, std::exchange(read.rows, {}), segmentation, self);
