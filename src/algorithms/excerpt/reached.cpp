@@ -107,6 +107,7 @@ class Reacher {
     }
     for (std::size_t asker = 0; asker < falling.size(); ++asker)
       fall(static_cast<int>(asker), std::move(falling[asker]));
+    leave_cells();
   }
 
   /// Hands over what other ranks have to follow, and takes what they hand over. False if nobody had anything.
@@ -247,6 +248,16 @@ class Reacher {
     go({StepKind::falling_edge, asker, {high, low}});
   }
 
+  /// Has others go on from the cells at which ways leave the part: all at once, as it takes keys to know whose these
+  /// are.
+  void leave_cells() {
+    std::vector<Id> cells;
+    for (const LocalStep& step : left_cells_) cells.push_back(step.simplex[0]);
+    const std::vector<int> owners = cells_.owners(cells);
+    for (std::size_t i = 0; i < cells.size(); ++i) elsewhere_.push_back({owners[i], global(left_cells_[i])});
+    left_cells_.clear();
+  }
+
   /// Lets edges fall for a rank, with all that they come to.
   void fall(int asker, std::vector<std::array<Id, 2>> edges) {
     if (edges.empty()) return;
@@ -266,7 +277,7 @@ class Reacher {
   void take_cell(int asker, FoundFor& found, Id cell) {
     const Id next = cell_successors_[cell];
     if (next == DiscreteGradient::elsewhere) {
-      elsewhere_.push_back({cells_.owner(cell), global({StepKind::rising_cell, asker, {cell}})});
+      left_cells_.push_back({StepKind::rising_cell, asker, {cell}});
       return;
     }
     const Id place = cell_place(found, cell);
@@ -325,7 +336,7 @@ class Reacher {
   std::optional<EdgeStar> star_;
   FoundForRanks found_;
   std::vector<std::unique_ptr<EdgeFall>> falls_;  ///< by asker, of edges from which alone edges fall
-  std::vector<LocalStep> here_;
+  std::vector<LocalStep> here_, left_cells_;
   std::vector<std::pair<int, SentStep>> elsewhere_;
 };
 
