@@ -1,17 +1,16 @@
 #include <algorithm>
 #include <functional>
-#include <future>
 #include <memory>
 #include <optional>
 #include <string>
 
-#include <gale/base/device.hpp>
 #include <gale/base/error.hpp>
 #include <gale/base/mirrored.hpp>
 #include <gale/distributed/distributed_mesh.hpp>
 #include <gale/distributed/sharing/local_grid.hpp>
 #include <gale/distributed/sharing/local_mesh.hpp>
 #include <gale/distributed/sharing/local_vertices.hpp>
+#include <gale/distributed/sharing/own_octree.hpp>
 #include <gale/distributed/sharing/vertex_directory.hpp>
 #include <gale/mesh/exchange/exchange_plan.hpp>
 #include <gale/mesh/octree.hpp>
@@ -51,7 +50,15 @@ void require_global_ids(const Ids& ids) {
   throw Error("ids are " + bounds + ", not " + std::to_string(ids(bad)));
 }
 
-/// Throws gale::Error for what one rank can see is wrong with its part but for the cells' vertices.
+/// The interval of a part's vertices if they are one, in order. Throws gale::Error for an id that is none.
+std::optional<detail::IdInterval> valid_interval(const Array<const GlobalId, HostMemory>& ids) {
+  const auto interval = detail::counted_interval(ids);
+  const bool are_valid = interval && (ids.extent(0) == 0 || (ids(0) >= 0 && ids(ids.extent(0) - 1) <= greatest_id));
+  if (!are_valid) require_global_ids(ids);
+  return interval;
+}
+
+/// Throws gale::Error for what one rank can see is wrong with its part but for vertices.
 template <class Index>
 void validate(const MeshPart<Index>& part) {
   require_ids("vertices", static_cast<Offset>(part.vertex_ids.extent(0)));
@@ -59,11 +66,7 @@ void validate(const MeshPart<Index>& part) {
   const std::size_t corners = part.cells.extent(1);
   if (part.cells.extent(0) > 0 && corners != 3 && corners != 4)
     throw Error("cells have 3 vertices or 4, not " + std::to_string(corners));
-  require_global_ids(part.vertex_ids);
   require_global_ids(part.cell_ids);
-  part.points.visit([](const auto& rows) {
-    detail::require_finite<typename std::decay_t<decltype(rows)>::non_const_value_type>(HostExecutionSpace(), rows);
-  });
 }
 
 /// How many vertices the cells of all ranks have. Collective; throws SharedError where they differ, and for no cells.
@@ -82,21 +85,12 @@ int corners_of_all(const Communicator& ranks, const MeshPart<Index>& part) {
   return triangles < none ? 3 : 4;
 }
 
-/// The octree of some points, which grows on a thread of its own, by a quarter of this one's threads.
-std::future<Segmentation> octree_meanwhile(const HostPoints& points, int capacity) {
-  const int few = std::max(host_threads() / 4, 1);
-  return std::async(std::launch::async | std::launch::deferred, [points, capacity, few] {
-    use_device();
-    const ThreadLimit limit(few);
-    return detail::octree_of(points, capacity);
-  });
-}
-
-/// Who hands over and owns which vertex.
+/// Who hands over and owns which vertex. `ids`: the interval of those that this rank hands over, if they are one.
 template <class Index>
-detail::VertexDirectory directory_of(const Communicator& ranks, const MeshPart<Index>& part, bool repartition) {
+detail::VertexDirectory directory_of(const Communicator& ranks, const MeshPart<Index>& part,
+                                     const std::optional<detail::IdInterval>& ids, bool repartition) {
   if (repartition) return {ranks, part.vertex_ids, detail::curve_partition(ranks, part.vertex_ids, part.points)};
-  if (const auto given = detail::GivenIntervals::of(ranks, part.vertex_ids)) return {ranks, *given};
+  if (const auto given = detail::GivenIntervals::of(ranks, ids)) return {ranks, *given};
   Array<int, HostMemory> owners;
   detail::together(ranks, [&] {
     owners =
@@ -229,9 +223,13 @@ detail::ExchangePlan::Run DistributedMesh::Sharing::share(const detail::VertexDi
   from_givers_ = detail::ExchangePlan(
       ranks_, run, slots, [&](Id i) { return entries(i).giver; }, [&](Id i) { return entries(i).place; },
       [](GlobalId place) { return static_cast<Id>(place); });
-  from_owners_ = detail::ExchangePlan(
-      ranks_, {}, ghosts, [&](Id i) { return ghost_owners_(i); }, [&](Id i) { return held_.ghosts()(i); },
-      [&](GlobalId id) { return held_.find(id); });
+  // Where all know that a ghost comes from its owner, the same values travel.
+  const bool gives_own = directory.given() && (in_place || held_.owned_count() == 0);
+  from_owners_ = ranks_.least(std::int64_t(gives_own)) == 1
+                     ? from_givers_.between_slots()
+                     : detail::ExchangePlan(
+                           ranks_, {}, ghosts, [&](Id i) { return ghost_owners_(i); },
+                           [&](Id i) { return held_.ghosts()(i); }, [&](GlobalId id) { return held_.find(id); });
   return run;
 }
 
@@ -252,20 +250,25 @@ detail::OwnAndGhosts DistributedMesh::Sharing::share_points(const HostPoints& gi
 template <class Index>
 Mesh DistributedMesh::Sharing::deal(MeshPart<Index> part, const PartitionOptions& options,
                                     const std::shared_ptr<const Exchange>& self) {
-  detail::together(ranks_, [&] { validate(part); });
+  std::optional<detail::IdInterval> ids;
+  detail::together(ranks_, [&] {
+    validate(part);
+    ids = valid_interval(part.vertex_ids);
+  });
   const int corners_of_each = corners_of_all(ranks_, part);
   if (part.cells.extent(0) == 0) part.cells = CellRows<Index>(nullptr, 0, corners_of_each);
-  std::optional<detail::VertexDirectory> directory = directory_of(ranks_, part, options.repartition);
+  std::optional<detail::VertexDirectory> directory = directory_of(ranks_, part, ids, options.repartition);
   detail::OwnedVertices all_owned = directory->owned();
   const detail::OwnedIds& owned = all_owned.ids;
-  // What a rank owns as it hands it over gets its segments on a device while cells travel.
-  const bool in_place = directory->given() && !owned.interval.is_empty();
-  std::future<Segmentation> segments;
-  if (have_device && in_place) {
-    const Offset place = owned.interval.begin - directory->given()->of(ranks_.rank()).begin;
-    segments = octree_meanwhile(part.points.part(place, owned.count()), options.capacity);
-  }
-  const detail::LocalCells<Index> held_cells(ranks_, part, *directory, owned.interval, options.most_local);
+  detail::OwnOctree octree(part.points, *directory, owned.interval, ranks_.rank());
+  detail::ReadCells<WorkerMemory> read;
+  detail::together(ranks_, [&] {
+    octree.require_finite();
+    read = detail::read_cells(part, owned.interval);
+  });
+  octree.begin(options.capacity);
+  const detail::LocalCells<Index> held_cells(ranks_, part, *directory, owned.interval, read.outer, options.most_local);
+  read.outer = {};
   detail::together(ranks_, [&] { held_ = detail::LocalVertices(owned, held_cells.vertices_beside(owned)); });
   detail::require_local(ranks_, "vertices", held_.count(), options.most_local);
   vertices_ = directory->vertices();
@@ -273,14 +276,15 @@ Mesh DistributedMesh::Sharing::deal(MeshPart<Index> part, const PartitionOptions
   given_ = directory->given();
   placed_ = share_points(part.points, share(*directory, std::exchange(all_owned.entries, {})));
   directory.reset();
+  Segmentation own;
+  detail::together(ranks_, [&] { own = octree.get(placed_.owned, options.capacity); });
   std::optional<Mesh> mesh;
   detail::together(ranks_, [&] {
     places_ = held_cells.places();
     if (options.keep_corners) corners = detail::local_corners(held_cells, held_);
-    const Segmentation own = segments.valid() ? segments.get() : detail::octree_of(placed_.owned, options.capacity);
     const Segmentation ghosts = detail::octree_of(placed_.ghosts, options.capacity);
     const Segmentation segmentation = detail::local_segmentation(held_, own, ghosts);
-    mesh = detail::local_mesh(held_cells, held_, segmentation, self);
+    mesh = detail::local_mesh(held_cells, held_, std::exchange(read.rows, {}), segmentation, self);
   });
   return *mesh;
 }

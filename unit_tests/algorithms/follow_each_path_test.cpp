@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <gale/algorithms/excerpt/cell_steps.hpp>
+#include <gale/algorithms/excerpt/path_steps.hpp>
 #include <gale/algorithms/gradient/follow_each_path.hpp>
 #include <gale/algorithms/morse_smale/condensed_paths.hpp>
 
@@ -66,23 +66,23 @@ TEST(FollowEachPath, comes_there_in_each_memory) {
   }
 }
 
-TEST(FollowCells, tells_each_cell_on_the_way_and_what_follows_in_each_memory) {
+TEST(FollowPaths, tells_each_simplex_on_the_way_and_what_follows_in_each_memory) {
   const Id count = 30000;
   const auto successors = falling_successors(count);
   const auto follow = [&](const auto& space, Id paths) {
     std::vector<Id> starts;
     for (Id i = 0; i < paths; ++i) starts.push_back(count - 1 - i);
     const auto there = in_memory<MemoryOf<std::decay_t<decltype(space)>>>(Array<const Id, HostMemory>(successors));
-    const detail::FollowedCells found = detail::follow_cells(space, there, starts);
+    const detail::FollowedPaths found = detail::follow_paths(space, there, starts);
     std::size_t at = 0;
     for (const Id start : starts) {
       for (Id cell = start; cell >= 0; cell = successors(cell), ++at) {
-        ASSERT_LT(at, found.cells.extent(0));
-        ASSERT_EQ(found.cells(at), cell);
+        ASSERT_LT(at, found.simplices.extent(0));
+        ASSERT_EQ(found.simplices(at), cell);
         ASSERT_EQ(found.next(at), successors(cell));
       }
     }
-    ASSERT_EQ(at, found.cells.extent(0));
+    ASSERT_EQ(at, found.simplices.extent(0));
   };
   for (const Id paths : {0, 1, 20000}) {
     follow(HostExecutionSpace(), paths);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <gale/algorithms/excerpt/wall_rows.hpp>
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/morse_smale.hpp>
 #include <gale/algorithms/morse_smale/parts.hpp>
@@ -140,7 +141,7 @@ TEST(MorseSmaleComplex, has_the_same_connectors_however_many_walls_grow_side_by_
   expected.connectors = detail::descending_surfaces(gradient, critical, places, false, true, 2).connectors;
   ASSERT_GT(expected.connectors.count(), 10'000);
   for (const Offset together : {1, 100, 10'000, 100'000'000}) {
-    found.connectors = detail::device_connectors(gradient, critical, places, together);
+    found.connectors = detail::device_connectors(detail::wall_rows(gradient), critical.triangles, places, together);
     EXPECT_TRUE(equal(found, expected)) << together;
   }
 }

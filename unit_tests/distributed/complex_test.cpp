@@ -138,10 +138,18 @@ TEST_P(ComplexOnRanks, separatrices_are_those_of_one_rank) {
     MorseSmaleParts parts;
     parts.separatrices2 = !is_surface() && field.name == "permutation";
     const auto& expected = once(field.name, [&] { return all_paths_of(complex_on_one(field.values, parts)); });
-    const auto found = all_paths_of(complex_of(order_here(field), parts));
+    const VertexOrder order = order_here(field);
+    const auto found = all_paths_of(complex_of(order, parts));
     for (std::size_t kind = 0; kind < expected.size(); ++kind) {
       SCOPED_TRACE(kind);
       expect_paths(found[kind], expected[kind]);
+    }
+    if (is_surface()) continue;
+    const auto by_kernels = all_paths_of(find_morse_smale_complex(find_discrete_gradient(WorkerSpace(), order)));
+    for (std::size_t kind = 0; kind < 3; ++kind) {
+      SCOPED_TRACE("by kernels");
+      SCOPED_TRACE(kind);
+      expect_paths(by_kernels[kind], expected[kind]);
     }
   }
 }

@@ -85,7 +85,7 @@ TEST(VertexDirectory, of_intervals_says_what_that_of_any_ids_says) {
     std::vector<GlobalId> handed, asked;
     for (GlobalId id = mine.begin; id < mine.end; ++id) handed.push_back(id);
     for (GlobalId id = 0; id < 110; id += 1 + ranks.rank()) asked.push_back(id);
-    const auto given = detail::GivenIntervals::of(ranks, to_ids(handed));
+    const auto given = detail::GivenIntervals::of(ranks, detail::counted_interval(to_ids(handed)));
     ASSERT_TRUE(given);
     const Array<int, HostMemory> owners("owners", handed.size());
     Kokkos::deep_copy(owners, ranks.rank());
@@ -139,8 +139,8 @@ TEST(VertexDirectory, tells_ranks_that_disagree_who_owns_what) {
 TEST(VertexDirectory, knows_no_intervals_where_one_rank_has_gaps) {
   const Communicator ranks(MPI_COMM_WORLD);
   const bool is_last = ranks.rank() + 1 == ranks.size();
-  EXPECT_FALSE(
-      detail::GivenIntervals::of(ranks, to_ids(is_last ? std::vector<GlobalId>{1, 3} : std::vector<GlobalId>{4, 5})));
+  EXPECT_FALSE(detail::GivenIntervals::of(
+      ranks, detail::counted_interval(to_ids(is_last ? std::vector<GlobalId>{1, 3} : std::vector<GlobalId>{4, 5}))));
 }
 
 }  // namespace gale::test

@@ -96,10 +96,12 @@ TEST(WrongParts, have_tetrahedra_of_vertices_that_nobody_has) {
 
 TEST(WrongParts, have_points_nowhere) {
   for (const bool repartition : {false, true}) {
-    LastPart given;
-    given.options.repartition = repartition;
-    if (given.is_last()) given.part.points[4] = std::numeric_limits<double>::infinity();
-    EXPECT_EQ(given.message(), "point 1 has a coordinate that is not finite");
+    for (const VertexNames& names : {names_with_gaps, names_without_gaps}) {
+      LastPart given(names);
+      given.options.repartition = repartition;
+      if (given.is_last()) given.part.points[4] = std::numeric_limits<double>::infinity();
+      EXPECT_EQ(given.message(), "point 1 has a coordinate that is not finite");
+    }
   }
 }
 

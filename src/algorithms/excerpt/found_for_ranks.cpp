@@ -65,8 +65,11 @@ void FoundForRanks::number_vertices(FoundFor& found) const {
   reached.number();
   found.vertices.resize(reached.count());
   const OtherIds input = mesh.vertices_in_input();
-  reached.for_each("GALE::reached_vertices", [&](Id vertex, Id place) {
-    found.vertices[place] = {mesh.vertex_id(input[vertex]), order_.value_key(vertex)};
+  std::vector<Id> vertices(reached.count());
+  reached.for_each("GALE::reached_vertices", [&](Id vertex, Id place) { vertices[place] = vertex; });
+  const std::vector<std::uint64_t> values = order_.value_keys_of(vertices);
+  parallel_for("GALE::reached_vertices", HostExecutionSpace(), vertices.size(), [&](Offset i) {
+    found.vertices[i] = {mesh.vertex_id(input[vertices[i]]), values[i]};
   });
   for_each_vertex_of(found, [&](Id& vertex) { vertex = reached[vertex]; });
 }

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include <gale/algorithms/excerpt/reached.hpp>
-#include <gale/algorithms/excerpt/shared_set.hpp>
 #include <gale/algorithms/vertex_order.hpp>
 #include <gale/base/hash_table.hpp>
 
@@ -22,8 +21,7 @@ using FoundList = std::vector<T>;
 struct FoundFor : ReachedLists<FoundList> {
   std::vector<Id> more_vertices;  ///< that no simplex has
   HashTable<Id> cell_places;
-  HashTable<IsSeen> fallen_vertices, told_edges, risen_cells, risen_edges;
-  SharedSet fallen_edges;
+  HashTable<IsSeen> fallen_vertices, fallen_edges, told_edges, risen_cells, risen_edges;
 };
 
 /// What a rank has found for all that ask.

@@ -2,16 +2,16 @@
 #include <optional>
 #include <utility>
 
-#include <gale/algorithms/excerpt/cell_steps.hpp>
+#include <gale/algorithms/excerpt/edge_fall.hpp>
 #include <gale/algorithms/excerpt/found_for_ranks.hpp>
 #include <gale/algorithms/excerpt/gathering.hpp>
+#include <gale/algorithms/excerpt/path_steps.hpp>
 #include <gale/algorithms/excerpt/reached.hpp>
-#include <gale/algorithms/gradient/gradient_store.hpp>
+#include <gale/algorithms/gradient/edges_on_host.hpp>
 #include <gale/algorithms/gradient/pair_star.hpp>
 #include <gale/algorithms/morse_smale/edge_star.hpp>
 #include <gale/algorithms/morse_smale/paths_on_ranks.hpp>
 #include <gale/base/error.hpp>
-#include <gale/base/threads.hpp>
 
 namespace gale::detail {
 
@@ -35,7 +35,8 @@ struct SentStep {
 
 class Reacher {
  public:
-  Reacher(const DiscreteGradient& gradient, const WantedWays& ways, Structure* rows)
+  /// With `is_beyond` a rank knows by itself what is in its part.
+  Reacher(const DiscreteGradient& gradient, const WantedWays& ways, Structure* rows, bool is_beyond)
       : gradient_(gradient),
         ways_(ways),
         mesh_(gradient.mesh()),
@@ -45,11 +46,13 @@ class Reacher {
         corners_(mesh_.cell_reader()),
         input_(mesh_.vertices_in_input()),
         internal_(mesh_.vertices_of_input()),
-        keys_(gradient.order().keys()),
-        vertex_successor_(gradient.store().vertex_steps()),
+        vertex_successors_(gradient.store().vertex_successors(), true),
         cell_successors_(gradient.store().cell_successors(), gradient.store().further_successors.empty()),
         further_(gradient.store().further_successors),
-        found_(gradient.order()) {
+        is_beyond_(is_beyond),
+        found_(gradient.order()),
+        falls_(ranks_.size()) {
+    if (!is_beyond) edges_.emplace(gradient);
     if (!ways.rising_walls) return;
     consumer_ = rows->consumer();
     star_.emplace(mesh_);
@@ -72,16 +75,15 @@ class Reacher {
     for (const auto& triangle : critical.triangles) {
       found.critical_triangles.push_back(triangle);
       if (!ways_.falling_walls) continue;
-      for (int i = 0; i < 3; ++i) fall(asker, triangle[i], triangle[(i + 1) % 3]);
+      for (int i = 0; i < 3; ++i) fall_to(asker, triangle[i], triangle[(i + 1) % 3]);
     }
     begin_stars(asker, found);
     if (ways_.all_for_first && owned_.size() > 0)  // the highest one of all is where classes end that never do
       found.more_vertices.push_back(gradient_.order().highest(owned_));
   }
 
-  /// From these, for this rank, which knows by itself what is in its part.
+  /// From these, for this rank.
   void begin(const WayExits& exits) {
-    is_beyond_ = true;
     const int asker = ranks_.rank();
     for (const Id vertex : exits.vertices) go({StepKind::falling_vertex, asker, {vertex}});
     for (const Id cell : exits.cells) go({StepKind::rising_cell, asker, {cell}});
@@ -90,11 +92,8 @@ class Reacher {
 
   /// Takes all steps that this rank can.
   void follow() {
-    std::vector<Id> cells;
-    for (const LocalStep& step : here_) {
-      if (step.kind == StepKind::rising_cell) cells.push_back(step.simplex[0]);
-    }
-    cell_successors_.follow(std::move(cells));
+    vertex_successors_.follow(starts_of(StepKind::falling_vertex));
+    cell_successors_.follow(starts_of(StepKind::rising_cell));
     std::vector<std::vector<std::array<Id, 2>>> falling(ranks_.size());  // edges from which alone edges fall, by asker
     for (std::int64_t i = 0; !here_.empty(); ++i) {
       stop_if_asked_at(i);
@@ -107,7 +106,8 @@ class Reacher {
       }
     }
     for (std::size_t asker = 0; asker < falling.size(); ++asker)
-      fall_from(static_cast<int>(asker), std::move(falling[asker]));
+      fall(static_cast<int>(asker), std::move(falling[asker]));
+    leave_cells();
   }
 
   /// Hands over what other ranks have to follow, and takes what they hand over. False if nobody had anything.
@@ -126,21 +126,32 @@ class Reacher {
     return true;
   }
 
-  /// Beyond its part, a rank knows by itself what it has found for itself.
-  void forget_own() {
-    if (is_beyond_) found_.forget(ranks_.rank());
+  /// What was found for all ranks, when nobody has anything left; for this one nothing that it knows by itself.
+  FoundForRanks& found() {
+    if (is_beyond_) {
+      found_.forget(ranks_.rank());
+      falls_[ranks_.rank()].reset();
+    }
+    for (int asker = 0; asker < ranks_.size(); ++asker) {
+      if (falls_[asker]) found_of(asker).edges = falls_[asker]->passed();
+      falls_[asker].reset();
+    }
+    return found_;
   }
-
-  /// What was found for all ranks, when nobody has anything left.
-  FoundForRanks& found() { return found_; }
 
  private:
   FoundFor& found_of(int asker) { return found_[asker]; }
 
   bool is_owned(Id vertex) const { return owned_.has(vertex); }
-  Id higher(Id a, Id b) const { return keys_[a] > keys_[b] ? a : b; }
-  std::array<Id, 2> ordered(Id a, Id b) const {
-    return keys_[a] > keys_[b] ? std::array<Id, 2>{a, b} : std::array<Id, 2>{b, a};
+  Id higher(Id a, Id b) const { return edges_->is_higher(a, b) ? a : b; }
+
+  /// The simplices of all steps of a kind that this rank can take.
+  std::vector<Id> starts_of(StepKind kind) const {
+    std::vector<Id> starts;
+    for (const LocalStep& step : here_) {
+      if (step.kind == kind) starts.push_back(step.simplex[0]);
+    }
+    return starts;
   }
 
   void begin_stars(int asker, FoundFor& found) {
@@ -157,7 +168,8 @@ class Reacher {
     }
   }
 
-  /// Goes on from a simplex, unless that was done: here, or where the rank is that knows how.
+  /// Goes on from a simplex, unless that was done: here, or where the rank is that knows how. Cells are known to be
+  /// another rank's when they are taken.
   void go(const LocalStep& step) {
     FoundFor& found = found_of(step.asker);
     const auto [a, b, c] = step.simplex;
@@ -167,12 +179,11 @@ class Reacher {
         if (!found.fallen_vertices.insert(static_cast<std::uint64_t>(a)).second) return;
         break;
       case StepKind::falling_edge:
-        if (!found.fallen_edges.insert(pair_key(a, b))) return;
+        if (!found.fallen_edges.insert(pair_key(a, b)).second) return;
         break;
       case StepKind::rising_cell:
-        if (!found.risen_cells.insert(static_cast<std::uint64_t>(a)).second) return;
-        highest = no_id;
-        break;
+        if (found.risen_cells.insert(static_cast<std::uint64_t>(a)).second) here_.push_back(step);
+        return;
       case StepKind::rising_edge:
         if (!found.risen_edges.insert(pair_key(a, b)).second) return;
         break;
@@ -180,12 +191,10 @@ class Reacher {
         highest = higher(a, higher(b, c));
         break;
     }
-    const bool is_here = highest == no_id ? cells_.owner(a) == ranks_.rank() : is_owned(highest);
-    if (is_here) {
+    if (is_owned(highest)) {
       here_.push_back(step);
     } else {
-      elsewhere_.push_back(
-          {highest == no_id ? cells_.owner(a) : mesh_.exchange().owner(input_[highest]), global(step)});
+      elsewhere_.push_back({mesh_.exchange().owner(input_[highest]), global(step)});
     }
   }
 
@@ -219,8 +228,8 @@ class Reacher {
       case StepKind::falling_edge: {
         const Id third = tell_edge(found, a, b);
         if (third < 0) return;
-        fall(step.asker, a, third);
-        return fall(step.asker, b, third);
+        fall_to(step.asker, a, third);
+        return fall_to(step.asker, b, third);
       }
       case StepKind::rising_cell:
         return take_cell(step.asker, found, a);
@@ -234,64 +243,44 @@ class Reacher {
     }
   }
 
-  void fall(int asker, Id a, Id b) {
-    const auto [high, low] = ordered(a, b);
+  void fall_to(int asker, Id a, Id b) {
+    const auto [high, low] = edges_->ordered(a, b);
     go({StepKind::falling_edge, asker, {high, low}});
   }
 
-  /// Follows edges that fall, and those that they lead to, on all threads: a thread goes on from one of them for some
-  /// steps, and leaves what is open then to whoever comes next.
-  void fall_from(int asker, std::vector<std::array<Id, 2>> open) {
-    constexpr int most_steps = 1024;
-    struct Part {
-      std::vector<std::array<Id, 3>> found;
-      std::vector<std::array<Id, 2>> open, left, elsewhere;
-    };
-    FoundFor& found = found_of(asker);
-    std::vector<Part> parts(host_threads());
-    while (!open.empty()) {
-      in_turns(host_threads(), static_cast<std::int64_t>(open.size()), [&](int thread, std::int64_t first) {
-        Part& part = parts[thread];
-        part.open.assign(1, open[first]);
-        for (int step = 0; step < most_steps && !part.open.empty(); ++step) {
-          const auto [high, low] = part.open.back();
-          part.open.pop_back();
-          const Id third = third_of(high, low);
-          if (third == edge_has_vertex) continue;
-          part.found.push_back({high, low, third});
-          if (third < 0) continue;
-          for (const Id end : {high, low}) {
-            const auto next = ordered(end, third);
-            if (found.fallen_edges.insert(pair_key(next[0], next[1])))
-              (is_owned(next[0]) ? part.open : part.elsewhere).push_back(next);
-          }
-        }
-        part.left.insert(part.left.end(), part.open.begin(), part.open.end());
-      });
-      open.clear();
-      for (Part& part : parts) {
-        open.insert(open.end(), part.left.begin(), part.left.end());
-        part.left.clear();
-      }
-      stop_if_asked();
-    }
-    for (const Part& part : parts) {
-      found.edges.insert(found.edges.end(), part.found.begin(), part.found.end());
-      for (const auto& [high, low] : part.elsewhere) {
-        elsewhere_.push_back(
-            {mesh_.exchange().owner(input_[high]), global({StepKind::falling_edge, asker, {high, low}})});
-      }
+  /// Has others go on from the cells at which ways leave the part: all at once, as it takes keys to know whose these
+  /// are.
+  void leave_cells() {
+    std::vector<Id> cells;
+    for (const LocalStep& step : left_cells_) cells.push_back(step.simplex[0]);
+    const std::vector<int> owners = cells_.owners(cells);
+    for (std::size_t i = 0; i < cells.size(); ++i) elsewhere_.push_back({owners[i], global(left_cells_[i])});
+    left_cells_.clear();
+  }
+
+  /// Lets edges fall for a rank, with all that they come to.
+  void fall(int asker, std::vector<std::array<Id, 2>> edges) {
+    if (edges.empty()) return;
+    if (!falls_[asker]) falls_[asker] = std::make_unique<EdgeFall>(gradient_);
+    for (const auto& [high, low] : falls_[asker]->fall(std::move(edges))) {
+      elsewhere_.push_back(
+          {mesh_.exchange().owner(input_[high]), global({StepKind::falling_edge, asker, {high, low}})});
     }
   }
 
   void take_vertex(int asker, FoundFor& found, Id vertex) {
-    const Id next = vertex_successor_[vertex];
+    const Id next = vertex_successors_[vertex];
     found.vertex_steps.push_back({vertex, next});
     if (next != no_id) go({StepKind::falling_vertex, asker, {next}});
   }
 
   void take_cell(int asker, FoundFor& found, Id cell) {
-    const Id next = cell_successors_[cell], place = cell_place(found, cell);
+    const Id next = cell_successors_[cell];
+    if (next == DiscreteGradient::elsewhere) {
+      left_cells_.push_back({StepKind::rising_cell, asker, {cell}});
+      return;
+    }
+    const Id place = cell_place(found, cell);
     if (next >= 0) {
       found.cell_steps.push_back({place, cell_place(found, next)});
       go({StepKind::rising_cell, asker, {next}});
@@ -307,28 +296,16 @@ class Reacher {
 
   /// From a triangle to the edge that it is paired with, if there is one.
   void cross(int asker, FoundFor& found, std::array<Id, 3> triangle) {
-    std::sort(triangle.begin(), triangle.end(), [this](Id a, Id b) { return keys_[a] > keys_[b]; });
+    std::sort(triangle.begin(), triangle.end(), [this](Id a, Id b) { return edges_->is_higher(a, b); });
     for (int i = 1; i < 3; ++i) {
       if (tell_edge(found, triangle[0], triangle[i]) == triangle[3 - i])
         go({StepKind::rising_edge, asker, {triangle[0], triangle[i]}});
     }
   }
 
-  /// What an edge is paired with, whose higher end this rank owns: the third vertex of that triangle, or why there is
-  /// none.
-  Id third_of(Id high, Id low) const {
-    Id third = no_id;
-    if (mesh_.dimension() == 3) {
-      const PairedEdges row = gradient_.store().pairs()[high];
-      third = row.third(row.find(low));
-    }
-    if (third != no_id) return third;
-    return vertex_successor_[high] == low ? edge_has_vertex : edge_is_critical;
-  }
-
-  /// Notes what an edge is paired with for the rank that asks, once; returns it as third_of does.
+  /// Notes what an edge is paired with for the rank that asks, once; returns it as EdgesOnHost does.
   Id tell_edge(FoundFor& found, Id high, Id low) {
-    const Id third = third_of(high, low);
+    const Id third = edges_->third(high, low);
     if (found.told_edges.insert(pair_key(high, low)).second) found.edges.push_back({high, low, third});
     return third;
   }
@@ -351,46 +328,48 @@ class Reacher {
   const PathSimplices cells_;
   const CellReader corners_;
   const OtherIds input_, internal_;
-  const std::uint64_t* keys_;
-  const VertexSteps vertex_successor_;
-  CellSteps cell_successors_;
+  PathSteps vertex_successors_, cell_successors_;
   const std::vector<std::pair<Id, Id>>& further_;
+  const bool is_beyond_;
+  std::optional<EdgesOnHost> edges_;    ///< unless all is beyond
   std::unique_ptr<Consumer> consumer_;  // of rising walls
   std::optional<EdgeStar> star_;
   FoundForRanks found_;
-  bool is_beyond_ = false;
-  std::vector<LocalStep> here_;
+  std::vector<std::unique_ptr<EdgeFall>> falls_;  ///< by asker, of edges from which alone edges fall
+  std::vector<LocalStep> here_, left_cells_;
   std::vector<std::pair<int, SentStep>> elsewhere_;
 };
 
 /// Follows what begin(reacher) begins. Collective.
 template <class Begin>
-Reached followed(const DiscreteGradient& gradient, const WantedWays& ways, Structure* rows, std::size_t most_bytes,
-                 const Begin& begin) {
+Reached followed(const DiscreteGradient& gradient, const WantedWays& ways, Structure* rows, bool is_beyond,
+                 std::size_t most_bytes, const Begin& begin) {
   const Ranks& ranks = gradient.mesh().exchange().ranks();
   std::unique_ptr<Reacher> reacher;
   together(ranks, [&] {
-    reacher = std::make_unique<Reacher>(gradient, ways, rows);
+    reacher = std::make_unique<Reacher>(gradient, ways, rows, is_beyond);
     begin(*reacher);
   });
   do {
     together(ranks, [&] { reacher->follow(); });
   } while (reacher->hand_over());
-  reacher->forget_own();
-  FoundForRanks& found = reacher->found();
-  together(ranks, [&] { found.number_vertices(); });
-  require_room(ranks, "what critical simplices reach", found.bytes(), most_bytes);
-  return found.send();
+  FoundForRanks* found = nullptr;
+  together(ranks, [&] {
+    found = &reacher->found();
+    found->number_vertices();
+  });
+  require_room(ranks, "what critical simplices reach", found->bytes(), most_bytes);
+  return found->send();
 }
 
 }  // namespace
 
 Reached reach(const DiscreteGradient& gradient, const WantedWays& ways, Structure* rows, std::size_t most_bytes) {
-  return followed(gradient, ways, rows, most_bytes, [](Reacher& reacher) { reacher.begin(); });
+  return followed(gradient, ways, rows, false, most_bytes, [](Reacher& reacher) { reacher.begin(); });
 }
 
 Reached reach_beyond(const DiscreteGradient& gradient, const WayExits& exits) {
-  return followed(gradient, {}, nullptr, 0, [&](Reacher& reacher) { reacher.begin(exits); });
+  return followed(gradient, {}, nullptr, true, 0, [&](Reacher& reacher) { reacher.begin(exits); });
 }
 
 }  // namespace gale::detail

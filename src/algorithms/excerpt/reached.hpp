@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <gale/algorithms/discrete_gradient.hpp>
+#include <gale/algorithms/gradient/edge_pairs.hpp>
 #include <gale/mesh/exchange/messages.hpp>
 #include <gale/runtime/structure.hpp>
 
@@ -31,9 +32,6 @@ struct ReachedCell {
   GlobalId id;
   std::array<Id, 4> corners;
 };
-
-/// What stands for the third vertex of an edge that is paired with no triangle.
-inline constexpr Id edge_is_critical = -1, edge_has_vertex = -2;
 
 /// What stands for a cell's successor that is outside: behind the corner opposite the facet that it is paired with.
 constexpr Id step_outside(int corner) { return -2 - corner; }

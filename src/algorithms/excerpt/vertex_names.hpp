@@ -16,15 +16,15 @@ struct VertexNames {
   const Id* own_before = nullptr;  ///< of each other one, by global id: how many own ones come before it
   Interval between{0, 0};          ///< those others that some own ones come before, and some after
 
-  Id operator[](Id vertex) const {
+  KOKKOS_FUNCTION Id operator[](Id vertex) const {
     if (vertex >= own) return own_before[vertex - own] + (vertex - own);
     return input[vertex] + others_before(input[vertex]);
   }
 
   /// How many others come before an own one, by its input id.
-  Id others_before(Id id) const {
+  KOKKOS_FUNCTION Id others_before(Id id) const {
     if (between.first == between.last) return between.first;
-    return bisect(between.first, between.last, [&](Id other) { return own_before[other] <= id; });
+    return bisect(between.first, between.last, [this, id](Id other) { return own_before[other] <= id; });
   }
 };
 
@@ -35,7 +35,7 @@ struct NamedKeys {
   const std::uint64_t* others = nullptr;  ///< of the others, with names there
   VertexNames names{};                    ///< of all; none where own keys compare as they are
 
-  std::uint64_t operator[](Id vertex) const {
+  KOKKOS_FUNCTION std::uint64_t operator[](Id vertex) const {
     if (vertex >= count) return others[vertex - count];
     return own[vertex] + names.others_before(static_cast<Id>(own[vertex]));
   }

@@ -8,15 +8,18 @@
 #include <gale/algorithms/excerpt/reached.hpp>
 #include <gale/algorithms/excerpt/wider_simplices.hpp>
 #include <gale/algorithms/gradient/gradient_store.hpp>
-#include <gale/algorithms/morse_smale/descending_wall.hpp>
 #include <gale/algorithms/morse_smale/wider_successors.hpp>
 
 namespace gale::detail {
 
+/// An edge that another rank has told of, and the third vertex of the triangle that it is paired with, or
+/// `edge_is_critical`. Those that nobody has told of are paired with their higher ends.
+struct ToldEdge {
+  Id high, low, third;
+};
+
 /// A gradient of one rank's part, and what ways from there reach on other ranks (`reach_beyond`): what follows them
-/// finds what it would find in the whole. Simplices are numbered as WiderSimplices has them. Takes 8 bytes a vertex of
-/// a mesh of tetrahedra for rows, unless a grid's codes stand for them, and 8 more where values have more than 32 bits,
-/// beside what was reached. Refers to the gradient.
+/// finds what it would find in the whole. Simplices are numbered as WiderSimplices has them. Refers to the gradient.
 class WiderGradient {
  public:
   WiderGradient(const DiscreteGradient& gradient, std::shared_ptr<const WiderSimplices> simplices,
@@ -24,7 +27,9 @@ class WiderGradient {
   WiderGradient(const WiderGradient&) = delete;
   WiderGradient& operator=(const WiderGradient&) = delete;
 
-  WallGround ground() const;
+  /// The gradient of the part.
+  const DiscreteGradient& part() const { return gradient_; }
+
   const MoreSuccessors& vertex_successors() const { return vertex_successors_; }
   const MoreSuccessors& cell_successors() const { return cell_successors_; }
 
@@ -37,14 +42,15 @@ class WiderGradient {
   /// The places there of the rank's own edges.
   const std::vector<Id>& own_edges() const { return own_edges_; }
 
+  /// The edges that were told.
+  const std::vector<ToldEdge>& told_edges() const { return told_edges_; }
+
   /// Which simplices these are.
   const std::shared_ptr<const WiderSimplices>& simplices() const { return simplices_; }
 
  private:
-  void fill_keys();
-  void rank_vertices();
   void fill_successors(const Reached& reached);
-  void fill_rows(const Reached& reached);
+  void add_edges(const Reached& reached);
   void add_critical(const Reached& reached);
 
   Id vertex(int rank, Id place) const { return simplices_->vertex(rank, place); }
@@ -52,12 +58,8 @@ class WiderGradient {
 
   const DiscreteGradient& gradient_;
   const std::shared_ptr<const WiderSimplices> simplices_;
-  const Id own_vertices_, own_cells_, vertices_;
-  std::vector<std::uint64_t> ranks_;        ///< places of all in the order, where the gradient's keys say too little
-  std::vector<std::uint64_t> others_keys_;  ///< else keys of others' vertices
-  NamedKeys keys_;
   MoreSuccessors vertex_successors_, cell_successors_;
-  EdgePairs pairs_;
+  std::vector<ToldEdge> told_edges_;
   CriticalSimplices critical_;
   std::array<std::vector<char>, 4> is_own_;
   std::vector<Id> own_edges_;

@@ -31,6 +31,12 @@ class WiderSimplices {
   Id vertex(int rank, Id place) const { return vertex_of_[vertex_begin_[rank] + place]; }
   Id cell(int rank, Id place) const { return cell_of_[cell_begin_[rank] + place]; }
 
+  /// The order of the part's vertices.
+  const VertexOrder& order() const { return order_; }
+
+  /// For each other vertex how many of the part's come before it, by global ids.
+  const std::vector<Id>& own_before() const { return own_before_; }
+
   /// A number for each vertex, dense from 0.
   const VertexNames& names() const { return names_; }
 

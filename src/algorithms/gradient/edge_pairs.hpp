@@ -14,6 +14,9 @@
 
 namespace gale::detail {
 
+/// What stands for the third vertex of an edge that is paired with no triangle.
+inline constexpr Id edge_is_critical = -1, edge_has_vertex = -2;
+
 /// The edges of a vertex to lower vertices: the ids of these, ascending, and for each the place among them of the third
 /// vertex of the triangle that the edge is paired with. A view of words in EdgePairs: the count, the ids, then the
 /// places, in a byte each where that suffices.

@@ -4,9 +4,12 @@
 #include <utility>
 #include <vector>
 
+#include <gale/algorithms/excerpt/wall_rows.hpp>
+#include <gale/algorithms/excerpt/wider_ground.hpp>
 #include <gale/algorithms/morse_smale/descending_wall.hpp>
 #include <gale/algorithms/morse_smale/gathered_separatrices.hpp>
 #include <gale/algorithms/morse_smale/parts.hpp>
+#include <gale/base/error.hpp>
 
 namespace gale::detail {
 
@@ -116,14 +119,26 @@ struct ConnectorsHere::Found {
 };
 
 ConnectorsHere::ConnectorsHere(const DiscreteGradient& gradient, const CriticalPlaces& places, int threads)
-    : triangles_(gradient.critical().triangles), threads_(threads), found_(std::make_unique<Found>()) {
+    : triangles_(gradient.critical().triangles),
+      threads_(threads),
+      are_by_kernels_(gradient.store().is_from_kernels()),
+      found_(std::make_unique<Found>()) {
+  if (are_by_kernels_) {
+    for (const auto& [a, b, c] : triangles_) exits_.insert(exits_.end(), {{a, b}, {a, c}, {b, c}});
+  } else {
+    follow_here(gradient, places);
+  }
+}
+
+/// Follows walls as far as they are in the part.
+void ConnectorsHere::follow_here(const DiscreteGradient& gradient, const CriticalPlaces& places) {
   const WallGround ground = ground_of(gradient);
   const auto most_kept = static_cast<std::size_t>(gradient.mesh().vertices());
   found_->tracers = traced(
-      triangles_, threads,
+      triangles_, threads_,
       [&](int) {
-        auto tracer = std::make_unique<SurfaceTracer>(ground, nullptr, Paths::whole, most_kept / threads);
-        tracer->expect_connectors(usual_connectors(gradient.mesh()) / threads);
+        auto tracer = std::make_unique<SurfaceTracer>(ground, nullptr, Paths::whole, most_kept / threads_);
+        tracer->expect_connectors(usual_connectors(gradient.mesh()) / threads_);
         return tracer;
       },
       [&](SurfaceTracer& tracer, Id place) {
@@ -138,9 +153,18 @@ ConnectorsHere::ConnectorsHere(const DiscreteGradient& gradient, const CriticalP
 
 ConnectorsHere::~ConnectorsHere() = default;
 
-Separatrices<TriangleVertices> ConnectorsHere::finish(const WallGround& wider, const CriticalPlaces& places,
+Separatrices<TriangleVertices> ConnectorsHere::finish(const WiderGradient& wider, const CriticalPlaces& places,
                                                       const std::vector<Id>& edge_places) {
   std::vector<std::pair<Id, DescendingWall::Part>> unfinished;
+  if (are_by_kernels_) {
+    try {
+      return device_connectors(WiderRows(wider).rows(), triangles_, places);
+    } catch (const OutOfMemory&) {
+      for (std::size_t i = 0; i < triangles_.size(); ++i) unfinished.push_back({static_cast<Id>(i), {}});
+    }
+  }
+  const WiderGround wider_ground(wider);
+  const WallGround ground = wider_ground.ground();
   for (const auto& tracer : found_->tracers) {
     if (!tracer) continue;
     std::move(tracer->unfinished.begin(), tracer->unfinished.end(), std::back_inserter(unfinished));
@@ -149,7 +173,7 @@ Separatrices<TriangleVertices> ConnectorsHere::finish(const WallGround& wider, c
   std::vector<TriangleVertices> triangles;
   for (const auto& [place, part] : unfinished) triangles.push_back(triangles_[place]);
   auto tracers = traced(
-      triangles, threads_, [&](int) { return std::make_unique<SurfaceTracer>(wider, nullptr, Paths::whole); },
+      triangles, threads_, [&](int) { return std::make_unique<SurfaceTracer>(ground, nullptr, Paths::whole); },
       [&](SurfaceTracer& tracer, Id i) {
         auto& [place, part] = unfinished[i];
         part.triangles.empty() ? tracer.wall.follow(triangles[i]) : tracer.wall.follow_on(std::move(part));

@@ -4,7 +4,6 @@
 
 #include <gale/algorithms/morse_smale/growing_walls.hpp>
 #include <gale/algorithms/morse_smale/parts.hpp>
-#include <gale/base/bits.hpp>
 #include <gale/base/error.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/transfer.hpp>
@@ -15,25 +14,6 @@ namespace {
 
 template <class T>
 using Given = Kokkos::View<const T*, HostMemory, Kokkos::MemoryUnmanaged>;
-
-/// Bits that numbers below `count` take.
-int bits_for(Offset count) { return highest_bit(static_cast<std::uint64_t>(count - 1) | 1) + 1; }
-
-/// Room for at least so many, and what there was.
-template <class T>
-void make_room(const WorkerSpace& space, const char* label, InWorkers<T>& array, Offset used, Offset size) {
-  if (size <= static_cast<Offset>(array.extent(0))) return;
-  const auto larger = [&] {
-    try {
-      return allocate<InWorkers<T>>(label, std::max(size, 2 * static_cast<Offset>(array.extent(0))));
-    } catch (const OutOfMemory&) {
-      return allocate<InWorkers<T>>(label, size);
-    }
-  }();
-  Kokkos::deep_copy(space, first_of(larger, used), first_of(array, used));
-  space.fence();
-  array = larger;
-}
 
 WallTable grown(const WorkerSpace& space, const WallTable& table, int edge_bits) {
   const WallTable larger(space, 2 * table.places(), edge_bits);
@@ -93,13 +73,13 @@ void append_paths(const WorkerSpace& space, const CrossSides& walls, const std::
 /// wall has layers; time and memory grow with all walls together.
 class Connectors {
  public:
-  Connectors(const DiscreteGradient& gradient, const CriticalSimplices& critical, const CriticalPlaces& places,
+  Connectors(const WallRows& rows, const std::vector<TriangleVertices>& critical, const CriticalPlaces& places,
              Offset most_together)
       : critical_(critical),
         places_(places),
         most_together_(most_together),
-        edge_bits_(bits_for(static_cast<Offset>(gradient.store().pair_words().size()))),
-        walls_{GradientRows(gradient), {}, 0} {
+        edge_bits_(bits_for(rows.edges())),
+        walls_{rows, {}, 0} {
     found_.counts = allocate<InWorkers<WallCounts>>("GALE::wall_counts", 1);
   }
 
@@ -123,7 +103,7 @@ class Connectors {
 
  private:
   void grow(Id first_wall, Id count, Offset most_triangles) {
-    begin(critical_.triangles.data() + first_wall, count);
+    begin(critical_.data() + first_wall, count);
     for (Offset first = 0; first < counts_.triangles;) {
       const Offset layer = counts_.triangles - first;
       reserve(layer, most_triangles);
@@ -179,7 +159,7 @@ class Connectors {
   }
 
   const WorkerSpace space_{};
-  const CriticalSimplices& critical_;
+  const std::vector<TriangleVertices>& critical_;
   const CriticalPlaces& places_;
   const Offset most_together_;
   const int edge_bits_;
@@ -190,11 +170,10 @@ class Connectors {
 
 }  // namespace
 
-Separatrices<TriangleVertices> device_connectors(const DiscreteGradient& gradient, const CriticalSimplices& critical,
+Separatrices<TriangleVertices> device_connectors(const WallRows& rows, const std::vector<TriangleVertices>& critical,
                                                  const CriticalPlaces& places, Offset most_together) {
-  Connectors connectors(gradient, critical, places, most_together);
-  const Id count = static_cast<Id>(critical.triangles.size());
-  if (count > 0) connectors.add(0, count);
+  Connectors connectors(rows, critical, places, most_together);
+  if (!critical.empty()) connectors.add(0, static_cast<Id>(critical.size()));
   return std::move(connectors.paths);
 }
 

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include <gale/algorithms/gradient/gradient_store.hpp>
+#include <gale/algorithms/excerpt/wall_rows.hpp>
 #include <gale/algorithms/morse_smale/wall_table.hpp>
 #include <gale/base/atomic.hpp>
 #include <gale/base/memory.hpp>
@@ -26,46 +26,6 @@ struct WallRim {
   Id high, low;
 };
 
-/// What kernels read of a discrete gradient that kernels found, to follow walls through it.
-struct GradientRows {
-  const Id* pair_words;
-  const Offset* pairs_begin;
-  const Id* vertex_successor;
-  const std::uint64_t* keys;
-  OtherIds vertex_input;
-
-  explicit GradientRows(const DiscreteGradient& gradient)
-      : pair_words(gradient.store().pair_words().in<WorkerMemory>().data()),
-        pairs_begin(gradient.store().pairs_begin().in<WorkerMemory>().data()),
-        vertex_successor(gradient.store().vertex_successors().in<WorkerMemory>().data()),
-        keys(gradient.order().keys_in<WorkerMemory>().data()),
-        vertex_input(gradient.mesh().vertices_in_input<WorkerMemory>()) {}
-
-  /// The number of an edge among all edges: the place of its word.
-  KOKKOS_FUNCTION Offset number(Id high, Id place) const { return pairs_begin[high] + 1 + place; }
-
-  KOKKOS_FUNCTION EdgePairRow row(Id high) const {
-    return EdgePairRow(const_cast<Id*>(pair_words) + pairs_begin[high]);  // which it only reads
-  }
-
-  /// Is one triangle before another, both written with their input vertices ascending?
-  KOKKOS_FUNCTION bool is_less(const WallTriangle& a, const WallTriangle& b) const {
-    Id first[3], second[3];
-    write(a, first);
-    write(b, second);
-    for (int i = 0; i < 2; ++i) {
-      if (first[i] != second[i]) return first[i] < second[i];
-    }
-    return first[2] < second[2];
-  }
-
- private:
-  KOKKOS_FUNCTION void write(const WallTriangle& triangle, Id (&written)[3]) const {
-    const Id ids[] = {vertex_input[triangle.high], vertex_input[triangle.low], vertex_input[triangle.third]};
-    for (int i = 0; i < 3; ++i) written[(ids[0] < ids[i]) + (ids[1] < ids[i]) + (ids[2] < ids[i])] = ids[i];
-  }
-};
-
 /// How many a kernel has found so far.
 struct WallCounts {
   Offset triangles = 0, edges = 0, rims = 0;
@@ -79,9 +39,9 @@ struct WallSink {
   InWorkers<WallCounts> counts;  ///< one
 };
 
-/// Crosses the edges of one triangle.
+/// Crosses the edges of one triangle. Those that are paired with vertices lead nowhere, and are left out.
 struct CrossSides {
-  GradientRows gradient;
+  WallRows rows;
   WallSink sink;
   Id walls;
 
@@ -90,25 +50,38 @@ struct CrossSides {
     const WallTriangle from = sink.triangles(triangle);
     if (triangle < walls) cross(from.high, from.low, from.wall, number);
     cross(from.high, from.third, from.wall, number);
-    const bool in_order = gradient.keys[from.low] > gradient.keys[from.third];
+    const bool in_order = rows.keys[from.low] > rows.keys[from.third];
     cross(in_order ? from.low : from.third, in_order ? from.third : from.low, from.wall, number);
   }
 
+  /// Is one triangle before another, both by their numbers, written with their input vertices ascending?
+  KOKKOS_FUNCTION bool is_less(std::uint32_t a, std::uint32_t b) const {
+    Id first[3], second[3];
+    write(sink.triangles(a), first);
+    write(sink.triangles(b), second);
+    for (int i = 0; i < 2; ++i) {
+      if (first[i] != second[i]) return first[i] < second[i];
+    }
+    return first[2] < second[2];
+  }
+
  private:
+  KOKKOS_FUNCTION void write(const WallTriangle& triangle, Id (&written)[3]) const {
+    const Id ids[] = {rows.names[triangle.high], rows.names[triangle.low], rows.names[triangle.third]};
+    for (int i = 0; i < 3; ++i) written[(ids[0] < ids[i]) + (ids[1] < ids[i]) + (ids[2] < ids[i])] = ids[i];
+  }
+
   KOKKOS_FUNCTION void cross(Id high, Id low, Id wall, std::uint32_t from) const {
-    const EdgePairRow row = gradient.row(high);
-    const Id place = row.find(low);
+    const PairedEdge edge = rows.edge(high, low);
+    if (edge.third == edge_has_vertex) return;
     bool is_new = false;
-    const std::uint64_t at = sink.table.insert(sink.table.key(wall, gradient.number(high, place)), is_new);
-    sink.table.put_above(at, from, [this](std::uint32_t a, std::uint32_t b) {
-      return gradient.is_less(sink.triangles(a), sink.triangles(b));
-    });
+    const std::uint64_t at = sink.table.insert(wall, edge.number, is_new);
+    sink.table.put_above(at, from, [this](std::uint32_t a, std::uint32_t b) { return is_less(a, b); });
     if (!is_new) return;
     atomic_add(&sink.counts(0).edges, Offset(1));
-    const Id third = row.third(place);
-    if (third != no_id) {
-      sink.triangles(atomic_add(&sink.counts(0).triangles, Offset(1))) = {high, low, third, wall};
-    } else if (gradient.vertex_successor[high] != low) {
+    if (edge.third >= 0) {
+      sink.triangles(atomic_add(&sink.counts(0).triangles, Offset(1))) = {high, low, edge.third, wall};
+    } else {
       sink.rims(atomic_add(&sink.counts(0).rims, Offset(1))) = {wall, high, low};
     }
   }
@@ -118,10 +91,9 @@ struct CrossSides {
 /// more where it was taken.
 template <class Visit>
 KOKKOS_FUNCTION void climb(const CrossSides& walls, const WallRim& rim, const Visit& visit) {
-  const GradientRows& gradient = walls.gradient;
   const WallTable& table = walls.sink.table;
   for (Id high = rim.high, low = rim.low;;) {
-    const std::uint64_t at = table.find(table.key(rim.wall, gradient.number(high, gradient.row(high).find(low))));
+    const std::uint64_t at = table.find(rim.wall, walls.rows.edge(high, low).number);
     const std::uint32_t triangle = table.least_above(at);
     visit(triangle, table.are_several_above(at));
     if (triangle < static_cast<std::uint32_t>(walls.walls)) return;

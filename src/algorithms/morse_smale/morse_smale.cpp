@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <gale/algorithms/excerpt/gradient_excerpt.hpp>
+#include <gale/algorithms/excerpt/wall_rows.hpp>
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/morse_smale.hpp>
 #include <gale/algorithms/morse_smale/parts.hpp>
@@ -21,7 +22,8 @@ void find_surfaces(const detail::CriticalPlaces& places, int threads, MorseSmale
   const MorseSmaleParts& parts = complex.parts;
   if (!parts.separatrices2 && complex.excerpt.store().is_from_kernels()) {
     try {
-      complex.connectors = detail::device_connectors(complex.excerpt, complex.critical, places);
+      complex.connectors =
+          detail::device_connectors(detail::wall_rows(complex.excerpt), complex.critical.triangles, places);
       return;
     } catch (const OutOfMemory&) {
       // The host takes one wall after the other.

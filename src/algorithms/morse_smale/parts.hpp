@@ -51,30 +51,35 @@ DescendingSurfaces descending_surfaces(const DiscreteGradient& gradient, const C
                                        const CriticalPlaces& places, bool want_walls, bool want_connectors, int threads,
                                        const TurnedEdges* turned = nullptr, Paths told = Paths::whole);
 
-struct WallGround;
+struct WallRows;
+class WiderGradient;
 
 /// The saddle connectors of one rank's 2-saddles: first those of walls inside its part, then the others, when what
 /// these reach elsewhere is known. Until then it keeps these walls as far as they are in the part, up to a triangle a
-/// vertex; what is more is followed anew.
+/// vertex; what is more is followed anew. Where kernels found the gradient they find all of them then.
 class ConnectorsHere {
  public:
   /// `places` has those of the rank's critical simplices. Refers to the gradient.
   ConnectorsHere(const DiscreteGradient& gradient, const CriticalPlaces& places, int threads);
   ~ConnectorsHere();
 
-  /// The edges, the higher end first, at which walls leave the part.
+  /// The edges, the higher end first, at which walls leave the part; where kernels find connectors, those at which they
+  /// begin.
   const std::vector<std::array<Id, 2>>& exits() const { return exits_; }
 
   /// All connectors, once. `wider` has all that is reached from the exits; `places` are those of critical simplices
   /// there, and edge_places[i] is that of the rank's i-th critical edge.
-  Separatrices<TriangleVertices> finish(const WallGround& wider, const CriticalPlaces& places,
+  Separatrices<TriangleVertices> finish(const WiderGradient& wider, const CriticalPlaces& places,
                                         const std::vector<Id>& edge_places);
 
  private:
   struct Found;
 
+  void follow_here(const DiscreteGradient& gradient, const CriticalPlaces& places);
+
   const std::vector<TriangleVertices>& triangles_;
   const int threads_;
+  const bool are_by_kernels_;
   std::unique_ptr<Found> found_;
   std::vector<std::array<Id, 2>> exits_;
 };
@@ -90,10 +95,11 @@ struct PathExits {
 /// part is followed on by the others, who tell what they pass. Collective.
 void separatrices_on_ranks(int threads, PathExits down, PathExits up, MorseSmaleComplex& complex);
 
-/// Finds the saddle connectors of a gradient that kernels found, by kernels where it is: those that
-/// `descending_surfaces` finds, in its order. Walls are made together that have `most_together` triangles at most, a
-/// single one with any number: 2^26 take 4 GiB, beside the connectors. Throws OutOfMemory if one doesn't fit there.
-Separatrices<TriangleVertices> device_connectors(const DiscreteGradient& gradient, const CriticalSimplices& critical,
+/// Finds the saddle connectors in the descending walls of critical triangles by kernels, where these find the rows of a
+/// gradient: those that `descending_surfaces` finds, in its order. Walls are made together that have `most_together`
+/// triangles at most, a single one with any number: 2^26 take 4 GiB, beside the connectors. Throws OutOfMemory if one
+/// doesn't fit there.
+Separatrices<TriangleVertices> device_connectors(const WallRows& rows, const std::vector<TriangleVertices>& critical,
                                                  const CriticalPlaces& places, Offset most_together = Offset(1) << 26);
 
 /// Finds the ascending walls of some critical edges, by their places, ascending. A wall goes on from an edge, through

@@ -54,7 +54,7 @@ void separatrices_on_ranks(int threads, PathExits down, PathExits up, MorseSmale
     for (Id& source : down.starts.sources) source = wider.own_edges()[source];
     complex.descending = paths_along(wider.vertex_successors(), down.starts, [&](Id v) { return places.of_vertex(v); });
     complex.ascending = paths_along(wider.cell_successors(), up.starts, [&](Id t) { return places.of_cell(t); });
-    if (connectors) complex.connectors = connectors->finish(wider.ground(), places, wider.own_edges());
+    if (connectors) complex.connectors = connectors->finish(wider, places, wider.own_edges());
     complex.is_own = wider.is_own();
     name_in_excerpt(wider, complex);
   });

@@ -2,57 +2,41 @@
 
 #include <cstdint>
 
-#include <gale/base/atomic.hpp>
-#include <gale/base/bits.hpp>
-#include <gale/base/memory.hpp>
+#include <gale/base/key_table.hpp>
 
 namespace gale::detail {
 
-/// The edges of walls that grow side by side: a hash table that kernels insert into. An edge of a wall has the least of
-/// the wall's triangles that it isn't paired with, by its number, and whether there are more of these. Copies share it.
+/// The edges of walls that grow side by side: a table that kernels insert into. An edge of a wall has the least of the
+/// wall's triangles that it isn't paired with, by its number, and whether there are more of these. Copies share it.
 class WallTable {
  public:
   WallTable() = default;
 
   /// With so many places, a power of two; `edge_bits` suffice for the numbers of edges. Throws OutOfMemory.
   WallTable(const WorkerSpace& space, Offset places, int edge_bits)
-      : edges_(allocate<Array<std::uint64_t, WorkerMemory>>("GALE::wall_edges", places)),
+      : edges_(space, places),
         above_(allocate<Array<std::uint32_t, WorkerMemory>>("GALE::triangles_above", places)),
         edge_bits_(edge_bits) {
-    Kokkos::deep_copy(space, edges_, none);
-    Kokkos::deep_copy(space, above_, no_triangle);
+    fill("GALE::triangles_above", space, above_, no_triangle);
   }
 
-  Offset places() const { return static_cast<Offset>(edges_.extent(0)); }
+  Offset places() const { return edges_.places(); }
 
   /// Copies the edge at a place, if there is one, to a larger table.
   KOKKOS_FUNCTION void copy_to(const WallTable& larger, Offset place) const {
-    if (edges_(place) == none) return;
+    if (edges_.at(place) == KeyTable::none) return;
     bool is_new;
-    larger.above_(larger.insert(edges_(place), is_new)) = above_(place);
+    larger.above_(larger.edges_.insert(edges_.at(place), is_new)) = above_(place);
   }
 
-  /// An edge of a wall, by the number that it has among all edges.
-  KOKKOS_FUNCTION std::uint64_t key(Id wall, Offset edge) const {
-    return std::uint64_t(wall) << edge_bits_ | std::uint64_t(edge);
-  }
-
-  /// The place of an edge; `is_new` says whether it was inserted now.
-  KOKKOS_FUNCTION std::uint64_t insert(std::uint64_t key, bool& is_new) const {
-    for (std::uint64_t at = first_place(key);; at = next_place(at)) {
-      std::uint64_t there = atomic_read(&edges_(at));
-      if (there == none) there = atomic_compare_exchange(&edges_(at), none, key);
-      is_new = there == none;
-      if (is_new || there == key) return at;
-    }
+  /// The place of an edge of a wall, by the number that it has among all edges; `is_new` says whether it was inserted
+  /// now.
+  KOKKOS_FUNCTION std::uint64_t insert(Id wall, Offset edge, bool& is_new) const {
+    return edges_.insert(key(wall, edge), is_new);
   }
 
   /// The place of an edge that is there.
-  KOKKOS_FUNCTION std::uint64_t find(std::uint64_t key) const {
-    std::uint64_t at = first_place(key);
-    while (edges_(at) != key) at = next_place(at);
-    return at;
-  }
+  KOKKOS_FUNCTION std::uint64_t find(Id wall, Offset edge) const { return edges_.find(key(wall, edge)); }
 
   /// Says that a triangle is above the edge at a place. is_less(a, b) compares triangles by their numbers.
   template <class IsLess>
@@ -74,13 +58,13 @@ class WallTable {
   static constexpr Offset most_triangles = (Offset(1) << 31) - 1;  ///< that it can number
 
  private:
-  static constexpr std::uint64_t none = ~std::uint64_t(0);
   static constexpr std::uint32_t several = std::uint32_t(1) << 31, no_triangle = ~std::uint32_t(0);
 
-  KOKKOS_FUNCTION std::uint64_t first_place(std::uint64_t key) const { return spread(key) & (edges_.extent(0) - 1); }
-  KOKKOS_FUNCTION std::uint64_t next_place(std::uint64_t at) const { return (at + 1) & (edges_.extent(0) - 1); }
+  KOKKOS_FUNCTION std::uint64_t key(Id wall, Offset edge) const {
+    return std::uint64_t(wall) << edge_bits_ | std::uint64_t(edge);
+  }
 
-  Array<std::uint64_t, WorkerMemory> edges_;
+  KeyTable edges_;
   Array<std::uint32_t, WorkerMemory> above_;
   int edge_bits_ = 0;
 };

@@ -215,13 +215,10 @@ std::vector<std::uint64_t> VertexOrder::keys_of(const std::vector<Id>& vertices)
 }
 
 std::vector<std::uint64_t> VertexOrder::value_keys_of(const std::vector<Id>& vertices) const {
-  std::vector<std::uint64_t> values;
-  if (has_short_values()) {
-    values = keys_of(vertices);
-    for (std::uint64_t& value : values) value >>= 32;
-  } else {
-    for (const Id vertex : vertices) values.push_back(all_.values(vertex));
-  }
+  std::vector<std::uint64_t> values(vertices.size());
+  if (has_short_values()) values = keys_of(vertices);
+  parallel_for("GALE::value_keys", HostExecutionSpace(), vertices.size(),
+               [&](Offset i) { values[i] = has_short_values() ? values[i] >> 32 : all_.values(vertices[i]); });
   return values;
 }
 

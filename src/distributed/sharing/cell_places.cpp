@@ -65,6 +65,19 @@ void CellPlaces::sort() {
   sources_ = sorted.places;
 }
 
+std::vector<CellRun> CellPlaces::runs() const {
+  return concatenated(of_parts("GALE::cell_runs", count(), [&](Offset first, Offset last) {
+    std::vector<CellRun> mine;
+    visit(
+        first, last,
+        [&](Offset i, Offset place, Offset count) {
+          mine.push_back({static_cast<Id>(i), static_cast<Id>(place), static_cast<Id>(count)});
+        },
+        [](Offset, Offset) {});
+    return mine;
+  }));
+}
+
 GlobalId CellPlaces::id(Offset i) const {
   if (sources_.extent(0) != 0) return sorted_(i);
   const Offset before = received_before(i);

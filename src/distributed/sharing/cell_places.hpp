@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <vector>
 
 #include <gale/mesh/exchange/global_index.hpp>
 
@@ -27,6 +28,13 @@ struct KeptCells {
   GlobalId id(Offset k) const { return id_at(place(k)); }
 };
 
+/// Cells that follow one another among all that a rank holds, as they do in its part.
+struct CellRun {
+  Id begin;  ///< among all
+  Id place;  ///< in the part
+  Id count;
+};
+
 /// Where the cells that a rank holds come from, by ascending global ids: local input ids are places among them.
 /// Cells that it keeps have that order mostly, and received ones are few: then it takes room for these alone.
 class CellPlaces {
@@ -47,6 +55,18 @@ class CellPlaces {
   Id counted(GlobalId id) const {
     const GlobalId place = id - kept_.first_id;
     return place >= 0 && place < kept_.count ? static_cast<Id>(place) : no_id;
+  }
+
+  /// Whether cells that are kept follow one another as in the part.
+  bool keep_order() const { return sources_.extent(0) == 0; }
+
+  /// The runs of those that are kept, ascending, and received(i, r) for all others, on all threads. For places that
+  /// keep the order.
+  std::vector<CellRun> runs() const;
+  template <class Received>
+  void visit_received(const Received& received) const {
+    parallel_for("GALE::received_cells", HostExecutionSpace(), received_at_.extent(0),
+                 [&](Offset r) { received(Offset(received_at_(r)), received_by_id(r)); });
   }
 
   /// The global id of the i-th, and those of all.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <type_traits>
@@ -26,6 +27,19 @@ inline IdInterval interval_of(const Array<const GlobalId, HostMemory>& ascending
   return {ascending(0), ascending(0) + count};
 }
 
+/// The interval whose ids these are, one after the other; nothing if they are others. Ids may be any numbers: where
+/// both ends are ids, all are.
+inline std::optional<IdInterval> counted_interval(const Array<const GlobalId, HostMemory>& ids) {
+  const Offset count = ids.extent(0);
+  if (count == 0) return IdInterval();
+  const auto first = static_cast<std::uint64_t>(ids(0));
+  const Offset others = reduce_sum("GALE::count_gaps", HostExecutionSpace(), count, [&](Offset i) {
+    return Offset(static_cast<std::uint64_t>(ids(i)) != first + static_cast<std::uint64_t>(i));
+  });
+  if (others > 0) return std::nullopt;
+  return IdInterval{ids(0), static_cast<GlobalId>(first + static_cast<std::uint64_t>(count))};
+}
+
 /// The vertices that a rank owns: an interval where their ids have no gaps, else the ids, ascending.
 struct OwnedIds {
   IdInterval interval;
@@ -44,14 +58,10 @@ struct OwnedIds {
 /// each rank knows by itself who hands over what.
 class GivenIntervals {
  public:
-  /// Nothing if any rank's ids are other ones. Collective.
-  static std::optional<GivenIntervals> of(const Communicator& ranks, const Array<const GlobalId, HostMemory>& ids) {
-    const Offset count = ids.extent(0);
-    const GlobalId first = count == 0 ? 0 : ids(0);
-    const Offset others = reduce_sum("GALE::count_gaps", HostExecutionSpace(), count,
-                                     [&](Offset i) { return Offset(ids(i) != first + i); });
-    if (ranks.sum(others) > 0) return std::nullopt;
-    return of(ranks, IdInterval{first, first + count});
+  /// Nothing if what any rank hands over is no interval. Collective.
+  static std::optional<GivenIntervals> of(const Communicator& ranks, const std::optional<IdInterval>& ids) {
+    if (ranks.least(std::int64_t(ids.has_value())) == 0) return std::nullopt;
+    return of(ranks, *ids);
   }
 
   /// Where each rank knows that it hands over an interval. Collective.
@@ -113,6 +123,17 @@ class IndexInterval {
     Unsigned farthest = 0;
     for (Offset i = 0; i < count; ++i) farthest = std::max(farthest, static_cast<Unsigned>(ids[i]) - begin_);
     return farthest < size_;
+  }
+
+  /// Writes the place in the interval of each that it contains, of others anything. Returns whether it contains all.
+  bool write_places(const Index* ids, Offset count, Id* to) const {
+    Unsigned farthest = 0;
+    for (Offset i = 0; i < count; ++i) {
+      const Unsigned place = static_cast<Unsigned>(ids[i]) - begin_;
+      farthest = std::max(farthest, place);
+      to[i] = static_cast<Id>(place);
+    }
+    return count == 0 || farthest < size_;
   }
 
  private:

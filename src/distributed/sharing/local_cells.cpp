@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <iterator>
 #include <string>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -11,16 +10,6 @@
 namespace gale::detail {
 
 namespace {
-
-/// Calls body(corners) with the number of a cell's vertices, 3 or 4, as a constant.
-template <class Body>
-void with_constant(Offset corners, const Body& body) {
-  if (corners == 4) {
-    body(std::integral_constant<int, 4>());
-  } else {
-    body(std::integral_constant<int, 3>());
-  }
-}
 
 /// Whether a cell's vertices are 0 or more, and different.
 template <int corners, class Index>
@@ -40,28 +29,6 @@ void require_cell(const Index* cell) {
   std::string vertices;
   for (int k = 0; k < corners; ++k) vertices += ' ' + std::to_string(cell[k]);
   throw Error("the cell of vertices" + vertices + " is none: they must be different, and 0 or more");
-}
-
-/// The cells of a part with vertices outside `own`, which are all where that is empty.
-template <class Index>
-SomeCells cells_beyond(const MeshPart<Index>& part, const IdInterval& own) {
-  constexpr Offset block = 64;
-  const Offset count = part.cells.extent(0), corners = part.cells.extent(1);
-  if (own.is_empty()) return {count, {}};
-  const Index* const ids = part.cells.data();
-  const IndexInterval<Index> inner(own);
-  const auto outer = concatenated(of_parts("GALE::outer_cells", count, [&](Offset first, Offset last) {
-    std::vector<Id> mine;
-    for (Offset begin = first; begin < last; begin += block) {
-      const Offset end = std::min(begin + block, last);
-      if (inner.contains(ids + corners * begin, corners * (end - begin))) continue;
-      for (Offset t = begin; t < end; ++t) {
-        if (!inner.contains(ids + corners * t, corners)) mine.push_back(static_cast<Id>(t));
-      }
-    }
-    return mine;
-  }));
-  return {static_cast<Offset>(outer.size()), array_of("GALE::outer_cells", outer)};
 }
 
 /// The vertices that some cells of a part have outside `own` and `handed`, ascending, none twice. Throws gale::Error
@@ -197,11 +164,9 @@ void require_local(const Communicator& ranks, const char* name, Offset count, Of
 
 template <class Index>
 LocalCells<Index>::LocalCells(const Communicator& ranks, const MeshPart<Index>& part, const VertexDirectory& directory,
-                              const IdInterval& own, Offset most_local)
+                              const IdInterval& own, const SomeCells& outer, Offset most_local)
     : part_(part), own_(own) {
   const GlobalId first_id = ranks.sum_before(part.cells.extent(0));
-  SomeCells outer;
-  together(ranks, [&] { outer = cells_beyond(part, own); });
   SentCells<Index> sent;
   const KeptCells kept = choose(ranks, directory, outer, first_id, sent);
   received_.ids = exchange(ranks, "GALE::received_ids", sent.ids);
@@ -254,8 +219,7 @@ GlobalIds LocalCells<Index>::vertices_beside(const OwnedIds& owned) const {
   GlobalIds beside;
   with_constant(corners(), [&](auto corners) {
     beside = missing_ids(index, outer + received_.count(), [&](Offset i, const auto& offer) {
-      const Index* const cell =
-          i < outer ? part_.cells.data() + corners * Offset(outer_(i)) : received_vertices(i - outer);
+      const Index* const cell = i < outer ? part_vertices(outer_(i)) : received_vertices(i - outer);
       for (int k = 0; k < corners; ++k) {
         if (!own.contains(cell[k])) offer(cell[k]);
       }

@@ -1,9 +1,8 @@
 #pragma once
 
-#include <vector>
-
 #include <gale/distributed/mesh_part.hpp>
 #include <gale/distributed/sharing/cell_places.hpp>
+#include <gale/distributed/sharing/outer_cells.hpp>
 #include <gale/distributed/sharing/vertex_directory.hpp>
 
 namespace gale::detail {
@@ -17,23 +16,15 @@ struct SentCells {
   Offset count() const { return ids.entries.extent(0); }
 };
 
-/// Cells of a part by ascending places; all of it where there are no places.
-struct SomeCells {
-  Offset count = 0;
-  Array<Id, HostMemory> places;
-
-  Id operator[](Offset i) const { return places.extent(0) == 0 ? static_cast<Id>(i) : places(i); }
-};
-
 /// The cells that touch a vertex which this rank owns: those of its own part where they are, and those that it got.
 template <class Index>
 class LocalCells {
  public:
   /// Sends each cell to the ranks that own a vertex of it. `own`: ids that this rank owns, as many as are known without
-  /// a search: cells of these alone concern no other rank. Collective. Throws gale::Error as DistributedMesh says.
-  /// Refers to `part`, whose cells have as many columns on all ranks.
+  /// a search: cells of these alone concern no other rank, and the others are the `outer` ones. Collective. Throws
+  /// gale::Error as DistributedMesh says. Refers to `part`, whose cells have as many columns on all ranks.
   LocalCells(const Communicator& ranks, const MeshPart<Index>& part, const VertexDirectory& directory,
-             const IdInterval& own, Offset most_local);
+             const IdInterval& own, const SomeCells& outer, Offset most_local);
 
   Offset count() const { return places_.count(); }
 
@@ -48,10 +39,19 @@ class LocalCells {
   template <class Visit>
   void visit(Offset first, Offset last, const Visit& visit) const {
     places_.visit(
-        first, last,
-        [&](Offset i, Offset place, Offset count) { visit(i, part_.cells.data() + corners() * place, count); },
+        first, last, [&](Offset i, Offset place, Offset count) { visit(i, part_vertices(place), count); },
         [&](Offset i, Offset r) { visit(i, received_vertices(r), Offset(1)); });
   }
+
+  /// The places in the part of those with vertices outside `own` that are kept, ascending.
+  const Array<Id, HostMemory>& outer() const { return outer_; }
+
+  /// How many came from other ranks.
+  Offset received_count() const { return received_.count(); }
+
+  /// The global ids of the vertices of a cell of the part, by its place, and of a received one.
+  const Index* part_vertices(Offset place) const { return part_.cells.data() + corners() * place; }
+  const Index* received_vertices(Offset r) const { return received_.vertices.entries.data() + corners() * r; }
 
   /// Throws gale::Error for one of the part that is none.
   void require_cells() const;
@@ -62,7 +62,6 @@ class LocalCells {
  private:
   KeptCells choose(const Communicator& ranks, const VertexDirectory& directory, const SomeCells& outer,
                    GlobalId first_id, SentCells<Index>& sent);
-  const Index* received_vertices(Offset i) const { return received_.vertices.entries.data() + corners() * i; }
 
   const MeshPart<Index>& part_;
   const IdInterval own_;

@@ -6,15 +6,11 @@
 
 #include <gale/base/memory.hpp>
 #include <gale/base/transfer.hpp>
-#include <gale/distributed/sharing/id_interval.hpp>
 #include <gale/distributed/sharing/local_mesh.hpp>
 
 namespace gale::detail {
 
 namespace {
-
-template <class Memory>
-using CornersIn = Kokkos::View<Id**, Kokkos::LayoutRight, Memory>;
 
 /// Throws if two cells have the same vertices, by their global ids.
 void refuse_twins(const CellRows<Id>& cells, const CellPlaces& places) {
@@ -68,47 +64,6 @@ Mirrored<Id> joined(const Space& space, const LocalVertices& vertices, const Mir
   return all;
 }
 
-/// Writes the local input ids of the vertices of cells first..last-1 from `to` on.
-template <class Index>
-void write_corners(const LocalCells<Index>& cells, const LocalVertices& vertices, Offset first, Offset last, Id* to) {
-  constexpr Offset block = 256;
-  const IndexInterval<Index> owned(vertices.interval());
-  const GlobalId shift = vertices.interval().is_empty() ? 0 : vertices.owned(0) - vertices.interval().begin;
-  cells.visit(first, last, [&](Offset, const Index* corners, Offset count) {
-    const Offset entries = cells.corners() * count;
-    for (Offset begin = 0; begin < entries; begin += block) {
-      const Offset size = std::min(block, entries - begin);
-      if (owned.contains(corners + begin, size)) {
-        for (Offset k = 0; k < size; ++k) to[k] = static_cast<Id>(corners[begin + k] + shift);
-      } else {
-        for (Offset k = 0; k < size; ++k) to[k] = vertices.find(corners[begin + k]);
-      }
-      to += size;
-    }
-  });
-}
-
-template <class Index, class Space>
-CornersIn<MemoryOf<Space>> corners_in(const Space&, const LocalCells<Index>& cells, const LocalVertices& vertices) {
-  const Offset count = cells.count(), corners = cells.corners();
-  const auto all = allocate<CornersIn<MemoryOf<Space>>>("GALE::local_cells", count, corners);
-  if constexpr (!is_device<Space>) {
-    for_parts("GALE::local_cells", count, threads_for(count), [&](int, Offset first, Offset last) {
-      write_corners(cells, vertices, first, last, all.data() + corners * first);
-    });
-  } else if (corners == 4) {
-    constexpr std::size_t row = 4 * sizeof(Id);
-    write_to_device(all.data(), static_cast<std::size_t>(count) * row,
-                    [&](char* to, std::size_t begin, std::size_t size) {
-                      write_corners(cells, vertices, static_cast<Offset>(begin / row),
-                                    static_cast<Offset>((begin + size) / row), reinterpret_cast<Id*>(to));
-                    });
-  } else {  // chunks would end within rows
-    copy_to_device(all.data(), corners_in(HostExecutionSpace(), cells, vertices).data(), all.size() * sizeof(Id));
-  }
-  return all;
-}
-
 }  // namespace
 
 Segmentation octree_of(const HostPoints& points, int capacity) {
@@ -128,16 +83,12 @@ Segmentation local_segmentation(const LocalVertices& vertices, const Segmentatio
 }
 
 template <class Index>
-CellRows<Id> local_corners(const LocalCells<Index>& cells, const LocalVertices& vertices) {
-  return corners_in<Index>(HostExecutionSpace(), cells, vertices);
-}
-
-template <class Index>
-Mesh local_mesh(const LocalCells<Index>& cells, const LocalVertices& vertices, const Segmentation& segmentation,
-                const std::shared_ptr<const Exchange>& exchange) {
+Mesh local_mesh(const LocalCells<Index>& cells, const LocalVertices& vertices, Array<const Quad, WorkerMemory> rows,
+                const Segmentation& segmentation, const std::shared_ptr<const Exchange>& exchange) {
   try {
     return in_worker_or_host_space(true, [&](const auto& space) {
-      return mesh_of_rows(corners_in<Index>(space, cells, vertices), segmentation, exchange);
+      const auto corners = corners_in(space, cells, vertices, std::exchange(rows, {}));
+      return mesh_of_rows(corners, segmentation, exchange);
     });
   } catch (const OutOfMemory&) {
     throw;
@@ -148,10 +99,9 @@ Mesh local_mesh(const LocalCells<Index>& cells, const LocalVertices& vertices, c
   }
 }
 
-#define GALE_INSTANTIATE(Index)                                                                 \
-  template CellRows<Id> local_corners(const LocalCells<Index>&, const LocalVertices&);          \
-  template Mesh local_mesh(const LocalCells<Index>&, const LocalVertices&, const Segmentation&, \
-                           const std::shared_ptr<const Exchange>&)
+#define GALE_INSTANTIATE(Index)                                                                             \
+  template Mesh local_mesh(const LocalCells<Index>&, const LocalVertices&, Array<const Quad, WorkerMemory>, \
+                           const Segmentation&, const std::shared_ptr<const Exchange>&)
 GALE_INSTANTIATE(std::int32_t);
 GALE_INSTANTIATE(std::int64_t);
 #undef GALE_INSTANTIATE

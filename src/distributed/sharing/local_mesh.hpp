@@ -2,8 +2,7 @@
 
 #include <memory>
 
-#include <gale/distributed/sharing/local_cells.hpp>
-#include <gale/distributed/sharing/local_vertices.hpp>
+#include <gale/distributed/sharing/local_corners.hpp>
 
 namespace gale::detail {
 
@@ -12,10 +11,6 @@ Segmentation octree_of(const HostPoints& points, int capacity);
 /// The segments of the vertices that a rank owns, then those of its ghosts, by local input ids. From segmentations by
 /// places among the owned ones, and among the ghosts.
 Segmentation local_segmentation(const LocalVertices& vertices, const Segmentation& owned, const Segmentation& ghosts);
-
-/// The local input ids of the cells' vertices.
-template <class Index>
-CellRows<Id> local_corners(const LocalCells<Index>& cells, const LocalVertices& vertices);
 
 /// The mesh of triangles or tetrahedra, as rows have three or four vertices.
 template <class Rows>
@@ -28,9 +23,10 @@ Mesh mesh_of_rows(const Rows& cells, const Segmentation& segmentation,
   return Mesh(Tetrahedra<Index, Memory>(cells.data(), cells.extent(0)), segmentation, exchange);
 }
 
-/// The mesh of what a rank holds, whose cells are written where the mesh is made. Errors name the global ids of cells.
+/// The mesh of what a rank holds, whose cells are written where the mesh is made: from their `rows` where a device has
+/// them (see ReadCells). Errors name the global ids of cells.
 template <class Index>
-Mesh local_mesh(const LocalCells<Index>& cells, const LocalVertices& vertices, const Segmentation& segmentation,
-                const std::shared_ptr<const Exchange>& exchange);
+Mesh local_mesh(const LocalCells<Index>& cells, const LocalVertices& vertices, Array<const Quad, WorkerMemory> rows,
+                const Segmentation& segmentation, const std::shared_ptr<const Exchange>& exchange);
 
 }  // namespace gale::detail

@@ -43,6 +43,17 @@ class ExchangePlan {
   ExchangePlan(const Ranks& ranks, const Run& run, const Array<const Id, HostMemory>& slots, const Source& source,
                const Key& key, const Place& place);
 
+  /// The plan by which other ranks take the same values from the slots that this rank's run has brought them to. It
+  /// gives none but those of its run.
+  ExchangePlan between_slots() const {
+    ExchangePlan plan = *this;
+    plan.run_ = {};
+    plan.given_.entries = tabulated<Id>("GALE::given_slots", given_.entries.extent(0), [&](Offset i) {
+      return static_cast<Id>(given_.entries(i) - run_.place + run_.slot);
+    });
+    return plan;
+  }
+
   /// Whether the values of all slots are in their places already.
   bool keeps_all() const { return taken_counts_.empty() && run_.slot == 0 && run_.place == 0; }
 

@@ -67,14 +67,30 @@ class GALE_EXPORT GlobalIndex {
   Array<Id, HostMemory> places_;          ///< the table, from the least id on: no_id where there is none
 };
 
+/// Ids met lately, so that those which neighbours share are mostly taken once.
+class RecentIds {
+ public:
+  /// Whether it was met lately; from now on it was. An id is 0 or more.
+  bool met(GlobalId id) {
+    GlobalId& last = last_[static_cast<std::size_t>(id) % last_.size()];
+    const bool was = last == id;
+    last = id;
+    return was;
+  }
+
+ private:
+  std::vector<GlobalId> last_ = std::vector<GlobalId>(4096, -1);  ///< by the lowest bits
+};
+
 /// The ids that `index` lacks among those that visit(i, offer) offers for i in 0..n-1: ascending, none twice.
 template <class Visit>
 GlobalIds missing_ids(const GlobalIndex& index, Offset n, const Visit& visit) {
   const auto missing = of_parts("GALE::missing_ids", n, [&](Offset first, Offset last) {
     std::vector<GlobalId> mine;
+    RecentIds recent;
     for (Offset i = first; i < last; ++i) {
       visit(i, [&](GlobalId id) {
-        if (index.find(id) == no_id) mine.push_back(id);
+        if (!recent.met(id) && index.find(id) == no_id) mine.push_back(id);
       });
     }
     keep_distinct(mine);

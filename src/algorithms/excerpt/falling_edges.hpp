@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <gale/algorithms/gradient/edges_in_kernels.hpp>
+#include <gale/base/key_table.hpp>
+
+namespace gale::detail {
+
+/// An edge that falls, the higher end first, and the third vertex of the triangle that it is paired with, or
+/// edge_is_critical.
+struct FallenEdge {
+  Id high, low, third;
+};
+
+/// How many edges kernels have found: those that were passed, and those that are other ranks' to follow.
+struct FallenCounts {
+  Offset passed = 0, left = 0;
+};
+
+/// Where kernels put edges that fall. Copies share it.
+struct FallenEdges {
+  KeyTable known;  ///< all of these
+  Array<FallenEdge, WorkerMemory> passed;
+  Array<std::array<Id, 2>, WorkerMemory> left;
+  Array<FallenCounts, WorkerMemory> counts;  ///< one
+};
+
+/// Edges that fall along a gradient that kernels found: from one that is paired with a triangle to the other edges of
+/// that triangle, and so on. Each is passed once. A layer of edges at a time falls side by side, so that there are as
+/// many launches as the longest way has edges. Takes 36 to 100 bytes an edge in the workers' memory. Refers to the
+/// gradient.
+class FallingEdges {
+ public:
+  /// Throws OutOfMemory.
+  explicit FallingEdges(const DiscreteGradient& gradient);
+
+  /// Lets some edges fall, the higher ends first, and all that they come to. Returns those of these that are other
+  /// ranks' to follow, once each in all calls. Throws OutOfMemory, and is of no use then.
+  std::vector<std::array<Id, 2>> fall(const std::vector<std::array<Id, 2>>& edges);
+
+  /// The edges that were passed; none of those that are paired with vertices, or other ranks' to follow.
+  std::vector<std::array<Id, 3>> passed() const;
+
+ private:
+  void reserve(Offset more);
+  void take_counts();
+
+  const WorkerSpace space_{};
+  const EdgesInKernels edges_;
+  const Array<const std::uint64_t, WorkerMemory> keys_;
+  FallenEdges found_;
+  FallenCounts counts_;
+};
+
+}  // namespace gale::detail

@@ -1,0 +1,43 @@
+#include <gale/algorithms/excerpt/wall_rows.hpp>
+#include <gale/base/transfer.hpp>
+
+namespace gale::detail {
+
+namespace {
+
+/// Puts edges, with the third vertices of triangles that they are paired with, into a table.
+ToldEdges told_there(const std::vector<ToldEdge>& edges, Offset first_number) {
+  if (edges.empty()) return {};
+  const WorkerSpace space;
+  const auto from = in_memory<WorkerMemory>(edges);
+  const Offset count = from.extent(0), places = Offset(1) << bits_for(2 * count);
+  const ToldEdges told{KeyTable(space, places), allocate<Array<Id, WorkerMemory>>("GALE::told_thirds", places),
+                       first_number};
+  parallel_for(
+      "GALE::told_edges", space, count, KOKKOS_LAMBDA(Offset i) {
+        const ToldEdge edge = from(i);
+        bool is_new;
+        told.thirds(told.edges.insert(pair_key(edge.high, edge.low), is_new)) = edge.third;
+      });
+  space.fence();
+  return told;
+}
+
+}  // namespace
+
+WallRows wall_rows(const DiscreteGradient& gradient) {
+  const Mesh& mesh = gradient.mesh();
+  return {EdgesInKernels(gradient),
+          {},
+          {gradient.order().keys_in<WorkerMemory>().data(), mesh.vertices()},
+          {mesh.vertices_in_input<WorkerMemory>(), mesh.vertices()}};
+}
+
+WiderRows::WiderRows(const WiderGradient& wider)
+    : keys_(*wider.simplices()),
+      keys_there_(keys_),
+      rows_{EdgesInKernels(wider.part()),
+            told_there(wider.told_edges(), static_cast<Offset>(wider.part().store().pair_words().size())),
+            keys_there_.keys(), keys_there_.names()} {}
+
+}  // namespace gale::detail

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <gale/algorithms/gradient/gradient_store.hpp>
+
+namespace gale::detail {
+
+/// An edge as kernels follow it.
+struct PairedEdge {
+  Offset number;  ///< among all edges
+  Id third;       ///< of the triangle that it is paired with, or why there is none: edge_is_critical, edge_has_vertex
+};
+
+/// The edges of a gradient that kernels found, for kernels: those whose higher ends this rank owns. Owns nothing.
+struct EdgesInKernels {
+  const Id* pair_words;
+  const Offset* pairs_begin;
+  const Id* vertex_successor;
+  Interval owned;  ///< vertices
+  Offset count;    ///< numbers of edges are below
+
+  explicit EdgesInKernels(const DiscreteGradient& gradient)
+      : pair_words(gradient.store().pair_words().in<WorkerMemory>().data()),
+        pairs_begin(gradient.store().pairs_begin().in<WorkerMemory>().data()),
+        vertex_successor(gradient.store().vertex_successors().in<WorkerMemory>().data()),
+        owned(gradient.mesh().owned_vertices()),
+        count(static_cast<Offset>(gradient.store().pair_words().size())) {}
+
+  /// An edge of an owned vertex to a lower one. Its number is the place of its word.
+  KOKKOS_FUNCTION PairedEdge operator()(Id high, Id low) const {
+    const EdgePairRow row(const_cast<Id*>(pair_words) + pairs_begin[high]);  // nobody writes to it
+    const Id place = row.find(low), third = row.third(place);
+    const Id why_none = vertex_successor[high] == low ? edge_has_vertex : edge_is_critical;
+    return {pairs_begin[high] + 1 + place, third == no_id ? why_none : third};
+  }
+};
+
+}  // namespace gale::detail

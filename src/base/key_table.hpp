@@ -1,0 +1,81 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include <gale/base/atomic.hpp>
+#include <gale/base/bits.hpp>
+#include <gale/base/memory.hpp>
+#include <gale/base/parallel.hpp>
+
+namespace gale::detail {
+
+/// Different 64-bit keys, any but the greatest one, that kernels insert: a hash table in the workers' memory, which has
+/// to have more places than keys. Copies share it.
+class KeyTable {
+ public:
+  static constexpr std::uint64_t none = ~std::uint64_t(0);  ///< no key, and the place of one that isn't there
+
+  /// Makes a table without places: no key is there, and none may be inserted.
+  KeyTable() = default;
+
+  /// Makes an empty table with so many places, a power of two. Throws OutOfMemory.
+  KeyTable(const WorkerSpace& space, Offset places)
+      : keys_(allocate<Array<std::uint64_t, WorkerMemory>>("GALE::key_table", places)) {
+    fill("GALE::key_table", space, keys_, none);
+  }
+
+  Offset places() const { return static_cast<Offset>(keys_.extent(0)); }
+
+  /// The key at a place, or none.
+  KOKKOS_FUNCTION std::uint64_t at(std::uint64_t place) const { return keys_(place); }
+
+  /// The place of a key; `is_new` says whether it was inserted now.
+  KOKKOS_FUNCTION std::uint64_t insert(std::uint64_t key, bool& is_new) const {
+    for (std::uint64_t place = first_place(key);; place = next_place(place)) {
+      std::uint64_t there = atomic_read(&keys_(place));
+      if (there == none) there = atomic_compare_exchange(&keys_(place), none, key);
+      is_new = there == none;
+      if (is_new || there == key) return place;
+    }
+  }
+
+  /// The place of a key that was inserted by an earlier kernel; none if there is none.
+  KOKKOS_FUNCTION std::uint64_t find(std::uint64_t key) const {
+    if (keys_.extent(0) == 0) return none;
+    std::uint64_t place = first_place(key);
+    while (keys_(place) != key) {
+      if (keys_(place) == none) return none;
+      place = next_place(place);
+    }
+    return place;
+  }
+
+ private:
+  KOKKOS_FUNCTION std::uint64_t first_place(std::uint64_t key) const { return spread(key) & (keys_.extent(0) - 1); }
+  KOKKOS_FUNCTION std::uint64_t next_place(std::uint64_t place) const { return (place + 1) & (keys_.extent(0) - 1); }
+
+  Array<std::uint64_t, WorkerMemory> keys_;
+};
+
+/// Bits that numbers below `count`, 1 or more, take.
+inline int bits_for(Offset count) { return highest_bit(static_cast<std::uint64_t>(count - 1) | 1) + 1; }
+
+/// Has an array in the workers' memory have at least `size` entries, and keeps the first `used`: twice as many as it
+/// had where there is room for that. Throws OutOfMemory.
+template <class T>
+void make_room(const WorkerSpace& space, const char* label, Array<T, WorkerMemory>& array, Offset used, Offset size) {
+  if (size <= static_cast<Offset>(array.extent(0))) return;
+  const auto larger = [&] {
+    try {
+      return allocate<Array<T, WorkerMemory>>(label, std::max(size, 2 * static_cast<Offset>(array.extent(0))));
+    } catch (const OutOfMemory&) {
+      return allocate<Array<T, WorkerMemory>>(label, size);
+    }
+  }();
+  Kokkos::deep_copy(space, first_of(larger, used), first_of(array, used));
+  space.fence();
+  array = larger;
+}
+
+}  // namespace gale::detail
