@@ -90,7 +90,7 @@ class GALE_EXPORT VertexOrder {
   /// algorithms.
   std::vector<std::uint64_t> value_keys_of(const std::vector<Id>& vertices) const;
 
-  /// The highest of some vertices, by GALE's ids; no_id if there are none. On all host threads.
+  /// The highest of some vertices, by GALE's ids; no_id if there are none. Found where all keys were made.
   Id highest(Interval some) const;
 
  private:

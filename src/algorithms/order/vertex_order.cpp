@@ -181,6 +181,32 @@ OrderKeys keys_of_places(const Mesh& mesh, const FieldValues<Id, HostMemory>& pl
   return keys_of_all(mesh, raw(places));
 }
 
+namespace {
+
+/// The vertex of some, which are there, that has the highest key.
+template <class Space>
+Id highest_in(const Space& space, const Array<const std::uint64_t, MemoryOf<Space>>& keys, const Interval& some) {
+  if constexpr (is_device<Space>) {
+    const Id first = some.first;
+    const Offset count = some.size();
+    const std::uint64_t least = reduce_min(
+        "GALE::highest_key", space, count, ~std::uint64_t(0), KOKKOS_LAMBDA(Offset i) { return ~keys(first + i); });
+    return static_cast<Id>(first + reduce_min(
+                                       "GALE::highest_vertex", space, count, count,
+                                       KOKKOS_LAMBDA(Offset i) { return ~keys(first + i) == least ? i : count; }));
+  } else {
+    const std::uint64_t* const first = keys.data() + some.first;
+    const auto highest_of_parts = of_parts("GALE::highest_vertex", some.size(), [&](Offset begin, Offset end) {
+      return std::max_element(first + begin, first + end);
+    });
+    const auto highest = std::max_element(highest_of_parts.begin(), highest_of_parts.end(),
+                                          [](const auto* a, const auto* b) { return *a < *b; });
+    return static_cast<Id>(some.first + (*highest - first));
+  }
+}
+
+}  // namespace
+
 #define GALE_INSTANTIATE_FOR(Value, Memory) \
   template GALE_EXPORT OrderKeys order_keys(const Mesh&, const FieldValues<Value, Memory>&)
 #if defined(GALE_HAS_DEVICE)
@@ -224,15 +250,9 @@ std::vector<std::uint64_t> VertexOrder::value_keys_of(const std::vector<Id>& ver
 
 Id VertexOrder::highest(Interval some) const {
   if (some.size() == 0) return no_id;
-  const std::uint64_t* const first = keys() + some.first;
-  std::vector<const std::uint64_t*> of_parts(detail::threads_for(some.size()), first);
-  detail::for_parts("GALE::highest_vertex", some.size(), static_cast<int>(of_parts.size()),
-                    [&](int part, Offset begin, Offset end) {
-                      if (begin < end) of_parts[part] = std::max_element(first + begin, first + end);
-                    });
-  const auto highest =
-      std::max_element(of_parts.begin(), of_parts.end(), [](const auto* a, const auto* b) { return *a < *b; });
-  return static_cast<Id>(some.first + (*highest - first));
+  return in_worker_or_host_space(all_.keys.on_device(), [&](const auto& space) {
+    return detail::highest_in(space, all_.keys.in<MemoryOf<std::decay_t<decltype(space)>>>(), some);
+  });
 }
 
 }  // namespace gale
