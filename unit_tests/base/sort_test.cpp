@@ -2,6 +2,7 @@
 #include <functional>
 #include <numeric>
 #include <random>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -59,6 +60,33 @@ TEST(ParallelSort, is_that_of_the_standard_library) {
         std::sort(expected.begin(), expected.end(), std::greater<>());
         parallel_sort("test_sort", sorted.begin(), sorted.end(), std::greater<>());
         EXPECT_EQ(sorted, expected) << count << " keys, " << threads << " threads";
+      }
+    }
+  }
+  set_host_threads(before);
+}
+
+TEST(MergeRuns, keeps_the_order_of_equal_entries_whatever_the_threads) {
+  using Entry = std::pair<std::uint64_t, int>;  // a key and its place
+  const auto is_less = [](const Entry& a, const Entry& b) { return a.first < b.first; };
+  const int before = host_threads();
+  for (const int threads : {1, 2, 5, 16}) {
+    set_host_threads(threads);
+    for (const std::vector<int>& lengths :
+         {std::vector<int>{50000, 0, 70000}, {1, 90000}, {90000, 1}, {60000, 60000}}) {
+      for (const std::uint64_t mask : {std::uint64_t(0), std::uint64_t(7), ~std::uint64_t(0)}) {
+        std::vector<Entry> merged;
+        std::vector<Offset> begin(1, 0);
+        for (const int length : lengths) {
+          Keys keys = random_keys(length, mask);
+          std::sort(keys.begin(), keys.end());
+          for (const auto key : keys) merged.emplace_back(key, static_cast<int>(merged.size()));
+          begin.push_back(static_cast<Offset>(merged.size()));
+        }
+        std::vector<Entry> expected = merged;
+        std::stable_sort(expected.begin(), expected.end(), is_less);
+        merge_runs(merged.begin(), begin, is_less);
+        EXPECT_EQ(merged, expected) << threads << " threads";
       }
     }
   }

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <set>
 #include <tuple>
 
@@ -178,6 +179,13 @@ TEST(PathsOnRanks, take_few_rounds_to_their_ends) {
   const auto structure = make_structure(mesh, discrete_gradient_relations);
   const auto gradient = find_discrete_gradient(*structure, VertexOrder(mesh, part.values(values)));
   const detail::PathSimplices vertices(gradient, detail::PathSimplices::Kind::falling_vertices);
+  for (const auto kind : {detail::PathSimplices::Kind::falling_vertices, detail::PathSimplices::Kind::rising_cells}) {
+    const detail::PathSimplices simplices(gradient, kind);
+    std::vector<Id> all(simplices.successors().size());
+    std::iota(all.begin(), all.end(), Id(0));
+    const std::vector<int> owners = simplices.owners(all);
+    for (const Id one : all) EXPECT_EQ(owners[one], simplices.owner(one));
+  }
   const detail::PathsOnRanks paths(vertices);
   EXPECT_LE(paths.rounds(), 6);  // 2^6 steps are more than any path has
   if (ranks.size() == 1) EXPECT_EQ(paths.rounds(), 0);
