@@ -1,0 +1,91 @@
+#include <algorithm>
+#include <set>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <gale/base/key_table.hpp>
+#include <gale/base/transfer.hpp>
+
+namespace gale::test {
+
+namespace {
+
+/// Inserts each key, and notes where it is and whether it was new.
+struct InsertKeys {
+  detail::KeyTable table;
+  Array<const std::uint64_t, WorkerMemory> keys;
+  Array<std::uint64_t, WorkerMemory> places;
+  Array<char, WorkerMemory> are_new;
+
+  KOKKOS_FUNCTION void operator()(Offset i) const {
+    bool is_new = false;
+    places(i) = table.insert(keys(i), is_new);
+    are_new(i) = is_new;
+  }
+};
+
+struct FindKeys {
+  detail::KeyTable table;
+  Array<const std::uint64_t, WorkerMemory> keys;
+  Array<std::uint64_t, WorkerMemory> places;
+
+  KOKKOS_FUNCTION void operator()(Offset i) const { places(i) = table.find(keys(i)); }
+};
+
+template <class T>
+std::vector<T> here(const Array<T, WorkerMemory>& array) {
+  const auto copy = on_host(array);
+  return {copy.data(), copy.data() + copy.extent(0)};
+}
+
+}  // namespace
+
+TEST(KeyTable, has_each_key_once_at_a_place_of_its_own) {
+  const WorkerSpace space;
+  std::vector<std::uint64_t> keys;
+  for (Id i = 0; i < 20000; ++i) keys.push_back(pair_key(i % 3000, 7 * (i % 3000)));
+  const detail::KeyTable table(space, 4096);
+  const InsertKeys insert{table, in_memory<WorkerMemory>(keys),
+                          allocate<Array<std::uint64_t, WorkerMemory>>("places", keys.size()),
+                          allocate<Array<char, WorkerMemory>>("new", keys.size())};
+  parallel_for("insert", space, static_cast<Offset>(keys.size()), insert);
+  space.fence();
+  const auto places = here(insert.places);
+  const auto are_new = here(insert.are_new);
+  EXPECT_EQ(std::count(are_new.begin(), are_new.end(), 1), 3000);
+  std::set<std::uint64_t> different(places.begin(), places.end());
+  EXPECT_EQ(different.size(), 3000u);
+  EXPECT_LT(*different.rbegin(), 4096u);
+  for (std::size_t i = 3000; i < keys.size(); ++i) ASSERT_EQ(places[i], places[i - 3000]) << i;
+
+  std::vector<std::uint64_t> asked(keys.begin(), keys.begin() + 3000);
+  for (Id i = 0; i < 3000; ++i) asked.push_back(pair_key(i, 7 * i + 1));
+  const FindKeys find{table, in_memory<WorkerMemory>(asked),
+                      allocate<Array<std::uint64_t, WorkerMemory>>("places", asked.size())};
+  parallel_for("find", space, static_cast<Offset>(asked.size()), find);
+  space.fence();
+  const auto found = here(find.places);
+  for (std::size_t i = 0; i < asked.size(); ++i)
+    ASSERT_EQ(found[i], i < 3000 ? places[i] : detail::KeyTable::none) << i;
+}
+
+TEST(KeyTable, without_places_has_no_key) {
+  const std::vector<std::uint64_t> asked = {0, 1, pair_key(3, 4)};
+  const FindKeys find{
+      {}, in_memory<WorkerMemory>(asked), allocate<Array<std::uint64_t, WorkerMemory>>("places", asked.size())};
+  parallel_for("find", WorkerSpace(), static_cast<Offset>(asked.size()), find);
+  Kokkos::fence();
+  for (const std::uint64_t place : here(find.places)) EXPECT_EQ(place, detail::KeyTable::none);
+}
+
+TEST(BitsFor, numbers_below_a_count) {
+  EXPECT_EQ(detail::bits_for(1), 1);
+  EXPECT_EQ(detail::bits_for(2), 1);
+  EXPECT_EQ(detail::bits_for(3), 2);
+  EXPECT_EQ(detail::bits_for(4), 2);
+  EXPECT_EQ(detail::bits_for(5), 3);
+  EXPECT_EQ(detail::bits_for((Offset(1) << 40) + 1), 41);
+}
+
+}  // namespace gale::test
