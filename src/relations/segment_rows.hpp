@@ -19,7 +19,8 @@ class SegmentRows {
   SegmentRows() = default;
 
   /// A segment, or any simplices, without rows so far.
-  SegmentRows(Id segment, const Intervals& simplices) : segment_(segment), simplices_(simplices) {}
+  SegmentRows(Id segment, const Intervals& simplices)
+      : segment_(segment), simplices_{simplices[0], simplices[1], simplices[2], simplices[3]} {}
 
   /// Adds a relation's rows.
   void set(Relation relation, const Rows& rows) { rows_[static_cast<int>(relation)] = rows; }
@@ -54,7 +55,7 @@ class SegmentRows {
 
  private:
   Id segment_ = no_id;
-  Intervals simplices_;
+  Interval simplices_[4];  // which kernels read: std::array's functions are the host's
   LinkRows links_;
   Rows rows_[relation_count];
 };

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <map>
 #include <random>
 #include <string>
@@ -219,6 +220,27 @@ TEST(GridLayersOfRanks, have_the_complex_and_the_pairs_of_the_whole_grid) {
       for (int d = 0; d < 3; ++d) EXPECT_EQ(as_pairs(gathered.pairs.pairs[d]), as_pairs(expected_pairs.pairs[d])) << d;
     }
   }
+}
+
+/// Walls that cross parts again and again, and messages that are packed by several threads.
+TEST(GridLayersOfRanks, have_the_connectors_of_the_whole_grid_by_kernels) {
+  const Communicator ranks(MPI_COMM_WORLD, 1000);
+  const Grid grid({48, 48, 48});
+  std::mt19937 random(13);
+  std::vector<float> all(grid.vertices());
+  for (Id v = 0; v < grid.vertices(); ++v) {
+    const double x = v % 48, y = v / 48 % 48, z = v / (48 * 48);
+    all[v] = static_cast<float>(std::sin(0.6 * x) * std::cos(0.7 * y) + std::sin(0.9 * z + 0.2 * x) +
+                                0.2 * static_cast<double>(random() % 1000) / 1000);
+  }
+  const GridLayers part = layers_of_rank(grid, ranks);
+  const DistributedMesh mesh(ranks, part);
+  const VertexOrder order(mesh, all.data() + first_vertex(grid, part.layers.first), mesh.owned_vertices().size());
+  const VertexOrder order_of_all(Mesh(grid), all.data(), all.size());
+  const auto expected = find_morse_smale_complex(find_discrete_gradient(order_of_all)).connectors;
+  const auto found = find_morse_smale_complex(find_discrete_gradient(WorkerSpace(), order)).connectors;
+  EXPECT_EQ(ranks.sum(static_cast<std::int64_t>(found.count())), static_cast<std::int64_t>(expected.count()));
+  EXPECT_EQ(ranks.sum(static_cast<std::int64_t>(found.cells.size())), static_cast<std::int64_t>(expected.cells.size()));
 }
 
 TEST(GridLayersOfRanks, are_refused_where_they_do_not_fit) {

@@ -35,19 +35,23 @@ struct CrossTriangle {
   KOKKOS_FUNCTION void operator()(Offset i) const {
     const FallenEdge edge = come_to.found.passed(first + i);
     if (edge.third < 0) return;
-    for (const Id end : {edge.high, edge.low}) {
-      const bool in_order = keys(end) > keys(edge.third);
-      come_to(in_order ? end : edge.third, in_order ? edge.third : end);
-    }
+    come_to_side(edge.high, edge.third);
+    come_to_side(edge.low, edge.third);
+  }
+
+ private:
+  KOKKOS_FUNCTION void come_to_side(Id end, Id third) const {
+    const bool in_order = keys(end) > keys(third);
+    come_to(in_order ? end : third, in_order ? third : end);
   }
 };
 
 /// Begins with some edges.
 struct BeginEdges {
   ComeTo come_to;
-  Array<const std::array<Id, 2>, WorkerMemory> edges;
+  Array<const Id, WorkerMemory> ends;  ///< two for each
 
-  KOKKOS_FUNCTION void operator()(Offset i) const { come_to(edges(i)[0], edges(i)[1]); }
+  KOKKOS_FUNCTION void operator()(Offset i) const { come_to(ends(2 * i), ends(2 * i + 1)); }
 };
 
 /// Puts the keys of a table into a larger one.
@@ -72,11 +76,12 @@ FallingEdges::FallingEdges(const DiscreteGradient& gradient)
 }
 
 std::vector<std::array<Id, 2>> FallingEdges::fall(const std::vector<std::array<Id, 2>>& edges) {
-  const Offset left_before = counts_.left;
+  if (edges.empty()) return {};
+  const Offset left_before = counts_.left, count = static_cast<Offset>(edges.size());
+  const auto ends = in_memory<WorkerMemory>(Array<const Id, HostMemory>(edges[0].data(), 2 * edges.size()));
   Offset first = counts_.passed;
-  reserve(static_cast<Offset>(edges.size()));
-  parallel_for("GALE::begin_edges", space_, static_cast<Offset>(edges.size()),
-               BeginEdges{{edges_, found_}, in_memory<WorkerMemory>(edges)});
+  reserve(count);
+  parallel_for("GALE::begin_edges", space_, count, BeginEdges{{edges_, found_}, ends});
   take_counts();
   while (first < counts_.passed) {
     stop_if_asked();
