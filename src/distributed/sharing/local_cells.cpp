@@ -173,7 +173,7 @@ LocalCells<Index>::LocalCells(const Communicator& ranks, const MeshPart<Index>& 
   together(ranks, [&] {
     auto counts = counts_of(received_.ids);
     for (std::int64_t& count : counts) count *= corners();
-    received_.vertices = room_by_rank<Index>("GALE::received_vertices", counts);
+    received_.vertices = room_to_receive<Index>("GALE::received_vertices", counts);
   });
   exchange(ranks, sent.vertices, received_.vertices);
   require_local(ranks, "cells", kept.count + received_.count(), most_local);
