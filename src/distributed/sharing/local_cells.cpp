@@ -169,7 +169,7 @@ LocalCells<Index>::LocalCells(const Communicator& ranks, const MeshPart<Index>& 
   const GlobalId first_id = ranks.sum_before(part.cells.extent(0));
   SentCells<Index> sent;
   const KeptCells kept = choose(ranks, directory, outer, first_id, sent);
-  received_.ids = exchange(ranks, "GALE::received_ids", sent.ids);
+  received_.ids = exchange_packed(ranks, "GALE::received_ids", sent.ids);
   together(ranks, [&] {
     auto counts = counts_of(received_.ids);
     for (std::int64_t& count : counts) count *= corners();
