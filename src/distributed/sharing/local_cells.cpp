@@ -135,21 +135,21 @@ CornerOwners<Index>::CornerOwners(const Communicator& ranks, const MeshPart<Inde
 template <class Index>
 void CornerOwners<Index>::fill(const DistinctIds& handed, const GlobalIds& others, const VertexDirectory& directory,
                                const Array<VertexEntry, HostMemory>& of_others) {
-  const Offset handed_count = handed.ids.extent(0), other_count = others.extent(0), count = handed_count + other_count;
-  const auto ids = allocate<GlobalIds>("GALE::outer_vertices", count);
-  owners_ = allocate<Array<int, HostMemory>>("GALE::owners_of_outer", count);
-  for (Offset i = 0, other = 0; i + other < count;) {
-    const Offset at = i + other;
-    if (other == other_count || (i < handed_count && handed.ids(i) < others(other))) {
-      ids(at) = handed.ids(i);
-      owners_(at) = directory.owner_of_handed(handed.places(i++));
-    } else {
-      if (of_others(other).giver < 0)
-        throw Error("a cell has vertex " + std::to_string(others(other)) + ", which no rank hands over");
-      ids(at) = others(other);
-      owners_(at) = of_others(other++).owner;
-    }
-  }
+  const Offset count = others.extent(0);
+  const Offset unknown = reduce_min("GALE::unknown_vertex", HostExecutionSpace(), count, count,
+                                    [&](Offset i) { return of_others(i).giver < 0 ? i : count; });
+  if (unknown < count)
+    throw Error("a cell has vertex " + std::to_string(others(unknown)) + ", which no rank hands over");
+  const auto ids = allocate<GlobalIds>("GALE::outer_vertices", handed.ids.extent(0) + count);
+  owners_ = allocate<Array<int, HostMemory>>("GALE::owners_of_outer", ids.extent(0));
+  visit_merged(handed.ids, others, [&](Offset i, Offset place) {
+    ids(place) = handed.ids(i);
+    owners_(place) = directory.owner_of_handed(handed.places(i));
+  });
+  visit_merged(others, handed.ids, [&](Offset i, Offset place) {
+    ids(place) = others(i);
+    owners_(place) = of_others(i).owner;
+  });
   vertices_ = GlobalIndex(ids, GlobalIndex::Lookups::many);
 }
 
@@ -169,11 +169,11 @@ LocalCells<Index>::LocalCells(const Communicator& ranks, const MeshPart<Index>& 
   const GlobalId first_id = ranks.sum_before(part.cells.extent(0));
   SentCells<Index> sent;
   const KeptCells kept = choose(ranks, directory, outer, first_id, sent);
-  received_.ids = exchange(ranks, "GALE::received_ids", sent.ids);
+  received_.ids = exchange_packed(ranks, "GALE::received_ids", sent.ids);
   together(ranks, [&] {
     auto counts = counts_of(received_.ids);
     for (std::int64_t& count : counts) count *= corners();
-    received_.vertices = room_by_rank<Index>("GALE::received_vertices", counts);
+    received_.vertices = room_to_receive<Index>("GALE::received_vertices", counts);
   });
   exchange(ranks, sent.vertices, received_.vertices);
   require_local(ranks, "cells", kept.count + received_.count(), most_local);

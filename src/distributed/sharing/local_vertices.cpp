@@ -32,16 +32,10 @@ LocalVertices::LocalVertices(const OwnedIds& owned, const GlobalIds& ghosts)
 void LocalVertices::merge(const GlobalIds& owned) {
   all_ = allocate<GlobalIds>("GALE::local_vertices", count());
   const auto place = [&](const GlobalIds& kind, const GlobalIds& other) {
-    const Offset kinds = kind.extent(0), others = other.extent(0);
-    const auto places = allocate<Array<Id, HostMemory>>("GALE::merged_vertices", kinds);
-    for_parts("GALE::merge_vertices", kinds, threads_for(kinds), [&](int, Offset first, Offset last) {
-      if (first == last) return;
-      Offset less = std::lower_bound(other.data(), other.data() + others, kind(first)) - other.data();
-      for (Offset i = first; i < last; ++i) {
-        while (less < others && other(less) < kind(i)) ++less;
-        places(i) = static_cast<Id>(i + less);
-        all_(i + less) = kind(i);
-      }
+    const auto places = allocate<Array<Id, HostMemory>>("GALE::merged_vertices", kind.extent(0));
+    visit_merged(kind, other, [&](Offset i, Offset at) {
+      places(i) = static_cast<Id>(at);
+      all_(at) = kind(i);
     });
     return places;
   };

@@ -74,7 +74,7 @@ class ExchangePlan {
   EntriesByRank<T> fetch(const Ranks& ranks, const Array<T, HostMemory>& values) const {
     EntriesByRank<T> taken;
     if (taken_counts_.empty()) return {{}, {0}};
-    together(ranks, [&] { taken = room_by_rank<T>("GALE::taken_values", taken_counts_); });
+    together(ranks, [&] { taken = room_to_receive<T>("GALE::taken_values", taken_counts_); });
     exchange(ranks, EntriesByRank<T>{values, given_.begin}, taken);
     return taken;
   }

@@ -67,6 +67,21 @@ class GALE_EXPORT GlobalIndex {
   Array<Id, HostMemory> places_;          ///< the table, from the least id on: no_id where there is none
 };
 
+/// Calls visit(i, place) for each of `some`, with its place among these and `others` together: all ascend, none is
+/// there twice. On all host threads.
+template <class Visit>
+void visit_merged(const GlobalIds& some, const GlobalIds& others, const Visit& visit) {
+  const Offset count = some.extent(0), other_count = others.extent(0);
+  for_parts("GALE::merge_ids", count, threads_for(count), [&](int, Offset first, Offset last) {
+    if (first == last) return;
+    Offset less = std::lower_bound(others.data(), others.data() + other_count, some(first)) - others.data();
+    for (Offset i = first; i < last; ++i) {
+      while (less < other_count && others(less) < some(i)) ++less;
+      visit(i, i + less);
+    }
+  });
+}
+
 /// Ids met lately, so that those which neighbours share are mostly taken once.
 class RecentIds {
  public:

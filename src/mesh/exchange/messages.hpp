@@ -39,6 +39,17 @@ EntriesByRank<T> room_by_rank(const char* label, const std::vector<std::int64_t>
   return all;
 }
 
+/// Room for entries that come from other ranks. MPI writes them by one thread, which would wait for the system's pages
+/// as long as for what comes: where there are many, all threads have it give them.
+template <class T>
+EntriesByRank<T> room_to_receive(const char* label, const std::vector<std::int64_t>& counts) {
+  constexpr std::size_t many_bytes = std::size_t(4) << 20;
+  const EntriesByRank<T> all = room_by_rank<T>(label, counts);
+  const std::size_t bytes = static_cast<std::size_t>(all.count()) * sizeof(T);
+  if (bytes >= many_bytes) expect_writes(all.entries.data(), bytes, threads_for(all.count()));
+  return all;
+}
+
 template <class T>
 std::vector<std::int64_t> counts_of(const EntriesByRank<T>& some) {
   std::vector<std::int64_t> counts(some.begin.size() - 1);
@@ -62,7 +73,7 @@ template <class T>
 EntriesByRank<T> exchange(const Ranks& ranks, const char* label, const EntriesByRank<T>& sent) {
   const auto counts = ranks.exchange_counts(counts_of(sent));
   EntriesByRank<T> received;
-  together(ranks, [&] { received = room_by_rank<T>(label, counts); });
+  together(ranks, [&] { received = room_to_receive<T>(label, counts); });
   exchange(ranks, sent, received);
   return received;
 }
