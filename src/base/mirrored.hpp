@@ -173,8 +173,7 @@ std::vector<T> entries_at(const Mirrored<T>& all, const std::vector<Id>& places)
                                       allocate<Array<T, Memory>>("GALE::entries_at", places.size())};
     parallel_for("GALE::entries_at", space, static_cast<Offset>(places.size()), read);
     space.fence();
-    const auto found = on_host(read.found);
-    return {found.data(), found.data() + found.extent(0)};
+    return vector_of(read.found);
   });
 }
 

@@ -1,12 +1,15 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include <gale/base/memory.hpp>
+#include <gale/base/parallel.hpp>
 #include <gale/export.hpp>
 
 namespace gale {
@@ -87,6 +90,18 @@ auto on_worker(const Kokkos::View<T, Properties...>& view) {
 template <class T, class... Properties>
 auto on_host(const Kokkos::View<T, Properties...>& view) {
   return in_memory<HostMemory>(view);
+}
+
+/// The entries of an array in either memory, in a vector. From a device they come right there.
+template <class T, class Memory>
+std::vector<std::remove_const_t<T>> vector_of(const Kokkos::View<T*, Memory>& array) {
+  auto entries = detail::zeros<std::remove_const_t<T>>(array.extent(0));
+  if constexpr (is_device_memory<Memory>) {
+    copy_from_device(entries.data(), array.data(), entries.size() * sizeof(T));
+  } else {
+    std::copy(array.data(), array.data() + array.extent(0), entries.begin());
+  }
+  return entries;
 }
 
 /// The entries of a vector in `Memory`: themselves, as long as they are there, or a copy.

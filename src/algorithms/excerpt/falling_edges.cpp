@@ -91,9 +91,9 @@ std::vector<std::array<Id, 2>> FallingEdges::fall(const std::vector<std::array<I
     first += layer;
     take_counts();
   }
-  const auto left =
-      on_host(Kokkos::subview(found_.left, std::make_pair(std::size_t(left_before), std::size_t(counts_.left))));
-  return {left.data(), left.data() + left.extent(0)};
+  const Array<std::array<Id, 2>, WorkerMemory> left =
+      Kokkos::subview(found_.left, std::make_pair(std::size_t(left_before), std::size_t(counts_.left)));
+  return vector_of(left);
 }
 
 std::vector<std::array<Id, 3>> FallingEdges::passed() const {

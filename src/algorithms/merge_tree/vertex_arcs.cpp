@@ -87,8 +87,7 @@ std::vector<Id> nodes_of(const Space& space, const SideClimb<MemoryOf<Space>>& s
       "GALE::nodes_of", space, static_cast<Offset>(vertices.size()),
       KOKKOS_LAMBDA(Offset i) { nodes(i) = side.node_of(of(i)); });
   space.fence();
-  const auto here = on_host(nodes);
-  return {here.data(), here.data() + here.extent(0)};
+  return vector_of(nodes);
 }
 
 #define GALE_INSTANTIATE(Space)                                                                                      \

@@ -29,6 +29,16 @@ void cross_layer(const WorkerSpace& space, Offset first, Offset count, const Cro
       "GALE::grow_walls", space, count, KOKKOS_LAMBDA(Offset i) { sides(first + i); });
 }
 
+template <class T>
+void append(std::vector<T>& entries, const InWorkers<T>& more) {
+  auto there = vector_of(more);
+  if (entries.empty()) {
+    entries = std::move(there);
+  } else {
+    entries.insert(entries.end(), there.begin(), there.end());
+  }
+}
+
 /// Appends the path from each of these rims up to the wall's critical triangle, which it includes. Sources and
 /// destinations are the caller's.
 void append_paths(const WorkerSpace& space, const CrossSides& walls, const std::vector<WallRim>& from,
@@ -60,12 +70,10 @@ void append_paths(const WorkerSpace& space, const CrossSides& walls, const std::
       });
   space.fence();
   const auto begin_here = on_host(begin);
-  const auto only_here = on_host(is_only);
-  const auto cells_here = on_host(cells);
   const Offset before = paths.begin.back();
   for (Offset i = 0; i < count; ++i) paths.begin.push_back(before + begin_here(i + 1));
-  paths.is_only.insert(paths.is_only.end(), only_here.data(), only_here.data() + count);
-  paths.cells.insert(paths.cells.end(), cells_here.data(), cells_here.data() + total);
+  append(paths.is_only, is_only);
+  append(paths.cells, cells);
 }
 
 /// Finds connectors in the descending walls of critical triangles, of which some grow side by side: a layer of

@@ -70,8 +70,7 @@ std::vector<Id> ends_of(const Space& space, const Array<const Id, MemoryOf<Space
                              allocate<Array<Id, Memory>>("GALE::ends_of", simplices.size())};
   parallel_for("GALE::ends_of", space, static_cast<Offset>(simplices.size()), read);
   space.fence();
-  const auto places = on_host(read.places);
-  return {places.data(), places.data() + places.extent(0)};
+  return vector_of(read.places);
 }
 
 /// Successors in some memory. Where they lie on the host, a copy on the device lives as long as what is returned.

@@ -136,8 +136,7 @@ std::vector<Id> starts_elsewhere(const Space& space, const PathSimplices& simpli
       "GALE::starts_elsewhere", space, found.extent(0),
       KOKKOS_LAMBDA(Offset i) { found(i) = starts(owned.first + found(i)); });
   space.fence();
-  const auto here = on_host(found);
-  return {here.data(), here.data() + here.extent(0)};
+  return vector_of(found);
 }
 
 /// The manifolds of a rank's own vertices, and what is still to be done of its ghosts'.

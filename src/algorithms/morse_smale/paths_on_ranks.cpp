@@ -171,8 +171,7 @@ std::vector<Id> PathSimplices::highest_corners(const std::vector<Id>& cells) con
                                    allocate<Array<Id, Memory>>("GALE::highest_corners", cells.size())};
     parallel_for("GALE::highest_corners", space, static_cast<Offset>(cells.size()), find);
     space.fence();
-    const auto highest = on_host(find.highest);
-    return {highest.data(), highest.data() + highest.extent(0)};
+    return vector_of(find.highest);
   });
 }
 

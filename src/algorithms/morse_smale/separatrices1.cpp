@@ -24,11 +24,7 @@ struct Followed {
 template <class Space, class Successors>
 Followed paths_on_device(const Space& space, const Successors& successors, const std::vector<Id>& starts) {
   const auto paths = follow_whole(space, successors, starts, false);
-  const auto here = on_host(paths.simplices);
-  Followed followed{on_host(paths.begin), {}};
-  reserve(followed.simplices, here.extent(0));
-  followed.simplices.assign(here.data(), here.data() + here.extent(0));
-  return followed;
+  return {on_host(paths.begin), vector_of(paths.simplices)};
 }
 
 /// Follows paths on the host, of which those that leave through the surface are walked twice for nothing.
