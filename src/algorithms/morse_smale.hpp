@@ -143,8 +143,9 @@ struct GALE_EXPORT MorseSmaleComplex {
 ///
 /// Collective on one rank's part of several. Each follows the separatrices of its own saddles in its part, and others
 /// where they leave it, in as many rounds of messages as one changes ranks; each is sent what its own reach elsewhere,
-/// with walls all that they reach: throws gale::Error on all ranks before that if one hasn't the memory for it.
-/// Manifolds take a number of rounds that grows with the logarithm of how often a path changes ranks.
+/// and finds connectors by kernels then, if these found the gradient; with walls it is sent all that they reach: throws
+/// gale::Error on all ranks before that if one hasn't the memory for it. Manifolds take a number of rounds that grows
+/// with the logarithm of how often a path changes ranks.
 ///
 /// Throws gale::Error where separatrices2 are wanted of a triangle mesh.
 ///

@@ -13,7 +13,6 @@
 #include <gale/distributed/sharing/own_octree.hpp>
 #include <gale/distributed/sharing/vertex_directory.hpp>
 #include <gale/mesh/exchange/exchange_plan.hpp>
-#include <gale/mesh/octree.hpp>
 
 namespace gale {
 
@@ -53,8 +52,9 @@ void require_global_ids(const Ids& ids) {
 /// The interval of a part's vertices if they are one, in order. Throws gale::Error for an id that is none.
 std::optional<detail::IdInterval> valid_interval(const Array<const GlobalId, HostMemory>& ids) {
   const auto interval = detail::counted_interval(ids);
-  const bool are_valid = interval && (ids.extent(0) == 0 || (ids(0) >= 0 && ids(ids.extent(0) - 1) <= greatest_id));
-  if (!are_valid) require_global_ids(ids);
+  const auto is_id = [&](Offset i) { return ids(i) >= 0 && ids(i) <= greatest_id; };
+  const Offset count = ids.extent(0);
+  if (!interval || (count > 0 && !(is_id(0) && is_id(count - 1)))) require_global_ids(ids);
   return interval;
 }
 
@@ -225,11 +225,13 @@ detail::ExchangePlan::Run DistributedMesh::Sharing::share(const detail::VertexDi
       [](GlobalId place) { return static_cast<Id>(place); });
   // Where all know that a ghost comes from its owner, the same values travel.
   const bool gives_own = directory.given() && (in_place || held_.owned_count() == 0);
-  from_owners_ = ranks_.least(std::int64_t(gives_own)) == 1
-                     ? from_givers_.between_slots()
-                     : detail::ExchangePlan(
-                           ranks_, {}, ghosts, [&](Id i) { return ghost_owners_(i); },
-                           [&](Id i) { return held_.ghosts()(i); }, [&](GlobalId id) { return held_.find(id); });
+  if (ranks_.least(std::int64_t(gives_own)) == 1) {
+    detail::together(ranks_, [&] { from_owners_ = from_givers_.between_slots(); });
+  } else {
+    from_owners_ = detail::ExchangePlan(
+        ranks_, {}, ghosts, [&](Id i) { return ghost_owners_(i); }, [&](Id i) { return held_.ghosts()(i); },
+        [&](GlobalId id) { return held_.find(id); });
+  }
   return run;
 }
 

@@ -64,7 +64,9 @@ TEST(EdgeFall, passes_each_edge_that_falls_once_however_often_it_is_asked) {
     const DiscreteGradient by_consumers = find_discrete_gradient(*structure, order);
     const auto starts = rims(by_consumers);
     const Passed expected = passed_from(by_consumers, starts);
-    for (const DiscreteGradient& gradient : {by_consumers, find_discrete_gradient(WorkerSpace(), order)}) {
+    const DiscreteGradient by_kernels = find_discrete_gradient(WorkerSpace(), order);
+    ASSERT_TRUE(by_kernels.store().is_from_kernels());
+    for (const DiscreteGradient& gradient : {by_consumers, by_kernels}) {
       const ThreadLimit limit(3);
       detail::EdgeFall fall(gradient);
       const auto half = starts.begin() + static_cast<std::ptrdiff_t>(starts.size() / 2);
@@ -85,6 +87,7 @@ TEST(EdgeFall, begins_anew_on_the_host_when_the_device_is_full) {
   const auto field = random_field(input, 1);
   const VertexOrder order(mesh, field.data(), field.size());
   const DiscreteGradient gradient = find_discrete_gradient(WorkerSpace(), order);
+  ASSERT_TRUE(gradient.store().is_from_kernels());
   const auto starts = rims(gradient);
   detail::EdgeFall fall(gradient);
   fall.fall({starts.begin(), starts.begin() + 1});

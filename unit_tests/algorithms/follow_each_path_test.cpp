@@ -73,7 +73,7 @@ TEST(FollowPaths, tells_each_simplex_on_the_way_and_what_follows_in_each_memory)
     std::vector<Id> starts;
     for (Id i = 0; i < paths; ++i) starts.push_back(count - 1 - i);
     const auto there = in_memory<MemoryOf<std::decay_t<decltype(space)>>>(Array<const Id, HostMemory>(successors));
-    const detail::FollowedPaths found = detail::follow_paths(space, there, starts);
+    const detail::SteppedPaths found = detail::step_along_paths(space, there, starts);
     std::size_t at = 0;
     for (const Id start : starts) {
       for (Id cell = start; cell >= 0; cell = successors(cell), ++at) {

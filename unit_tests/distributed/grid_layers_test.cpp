@@ -1,5 +1,6 @@
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <random>
 #include <string>
 #include <utility>
@@ -9,6 +10,7 @@
 
 #include <gale/algorithms/critical_points.hpp>
 #include <gale/algorithms/discrete_gradient.hpp>
+#include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/morse_smale.hpp>
 #include <gale/algorithms/persistence.hpp>
 #include <gale/algorithms/vertex_order.hpp>
@@ -223,7 +225,7 @@ TEST(GridLayersOfRanks, have_the_complex_and_the_pairs_of_the_whole_grid) {
 }
 
 /// Walls that cross parts again and again, and messages that are packed by several threads.
-TEST(GridLayersOfRanks, have_the_connectors_of_the_whole_grid_by_kernels) {
+TEST(GridLayersOfRanks, have_the_separatrices_of_the_whole_grid_by_kernels) {
   const Communicator ranks(MPI_COMM_WORLD, 1000);
   const Grid grid({48, 48, 48});
   std::mt19937 random(13);
@@ -237,10 +239,16 @@ TEST(GridLayersOfRanks, have_the_connectors_of_the_whole_grid_by_kernels) {
   const DistributedMesh mesh(ranks, part);
   const VertexOrder order(mesh, all.data() + first_vertex(grid, part.layers.first), mesh.owned_vertices().size());
   const VertexOrder order_of_all(Mesh(grid), all.data(), all.size());
-  const auto expected = find_morse_smale_complex(find_discrete_gradient(order_of_all)).connectors;
-  const auto found = find_morse_smale_complex(find_discrete_gradient(WorkerSpace(), order)).connectors;
-  EXPECT_EQ(ranks.sum(static_cast<std::int64_t>(found.count())), static_cast<std::int64_t>(expected.count()));
-  EXPECT_EQ(ranks.sum(static_cast<std::int64_t>(found.cells.size())), static_cast<std::int64_t>(expected.cells.size()));
+  const DiscreteGradient gradient = find_discrete_gradient(WorkerSpace(), order);
+  ASSERT_TRUE(gradient.store().is_from_kernels());
+  const Lines expected = lines_of(find_morse_smale_complex(find_discrete_gradient(order_of_all)));
+  const Lines found = lines_of(find_morse_smale_complex(gradient));
+  for (const auto& [line, times] : found) EXPECT_EQ(expected.count(line), 1u) << "a line of kind " << line[0];
+  const auto count_of = [](const Lines& lines) {
+    return std::accumulate(lines.begin(), lines.end(), std::int64_t(0),
+                           [](std::int64_t sum, const auto& line) { return sum + line.second; });
+  };
+  EXPECT_EQ(ranks.sum(count_of(found)), count_of(expected));
 }
 
 TEST(GridLayersOfRanks, are_refused_where_they_do_not_fit) {

@@ -149,10 +149,11 @@ void expect_placed(const Communicator& ranks, const AllParts& all, bool with_ids
   ASSERT_TRUE(cells.places().keep_order());
   const detail::OwnedIds owned(own);
   const detail::LocalVertices vertices(owned, cells.vertices_beside(owned));
-  const auto placed = on_host(detail::corners_of_rows(Space(), cells, vertices, read.rows));
+  const auto there = detail::corners_of_rows(Space(), cells, vertices, read.rows);
+  const auto placed = vector_of(Array<const Id, MemoryOf<Space>>(there.data(), there.size()));
   const std::vector<Id> expected = expected_corners(all, rank);
   ASSERT_EQ(placed.size(), expected.size());
-  EXPECT_TRUE(std::equal(expected.begin(), expected.end(), placed.data()));
+  EXPECT_EQ(placed, expected);
   const auto on_host_alone = detail::local_corners(cells, vertices);
   ASSERT_EQ(on_host_alone.size(), expected.size());
   EXPECT_TRUE(std::equal(expected.begin(), expected.end(), on_host_alone.data()));

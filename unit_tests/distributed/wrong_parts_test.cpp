@@ -62,6 +62,10 @@ TEST(WrongParts, have_ids_whose_sums_are_none) {
     EXPECT_EQ(LastPart({first, 1}).message(),
               "ids are at most 4611686018427387903, not " + std::to_string(std::max(first, most + 1)));
   }
+  using Limits = std::numeric_limits<GlobalId>;
+  LastPart around;
+  if (around.is_last()) around.part.vertex_ids = {Limits::max(), Limits::min(), Limits::min() + 1, Limits::min() + 2};
+  EXPECT_EQ(around.message(), "ids are at most 4611686018427387903, not 9223372036854775807");
 }
 
 /// Where one rank has all, as it would number it, the same is said.

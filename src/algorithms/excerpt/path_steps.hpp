@@ -15,14 +15,14 @@
 namespace gale::detail {
 
 /// Some paths, one after the other: each simplex on them, and its successor.
-struct FollowedPaths {
+struct SteppedPaths {
   Array<const Id, HostMemory> simplices, next;
 };
 
 /// Follows paths to their ends where the successors are, in the memory of `space`.
 template <class Space>
-FollowedPaths follow_paths(const Space& space, const Array<const Id, MemoryOf<Space>>& successors,
-                           const std::vector<Id>& starts) {
+SteppedPaths step_along_paths(const Space& space, const Array<const Id, MemoryOf<Space>>& successors,
+                              const std::vector<Id>& starts) {
   using Memory = MemoryOf<Space>;
   const auto simplices = follow_whole(space, successors, starts, true).simplices;
   const auto next = allocate<Array<Id, Memory>>("GALE::next_on_path", simplices.extent(0));
@@ -34,18 +34,17 @@ FollowedPaths follow_paths(const Space& space, const Array<const Id, MemoryOf<Sp
 /// The successors of simplices: where they lie on a device, those on paths that were followed alone.
 class PathSteps {
  public:
-  /// Without `one_way` paths fork: then those of all are brought here. Refers to the successors.
-  PathSteps(const Mirrored<Id>& successors, bool one_way)
-      : successors_(successors),
-        here_(one_way && successors.on_device() ? nullptr : successors.in<HostMemory>().data()) {}
+  /// Unless paths are `few` and don't fork, those of all are brought here. Refers to the successors.
+  PathSteps(const Mirrored<Id>& successors, bool few)
+      : successors_(successors), here_(few && successors.on_device() ? nullptr : successors.in<HostMemory>().data()) {}
 
   /// Makes known the successors of all simplices on the paths from some.
   void follow(std::vector<Id> starts) {
     if (here_ != nullptr || starts.empty()) return;
     std::sort(starts.begin(), starts.end());
     starts.erase(std::unique(starts.begin(), starts.end()), starts.end());
-    const FollowedPaths paths = in_worker_or_host_space(true, [&](const auto& space) {
-      return follow_paths(space, successors_.in<MemoryOf<std::decay_t<decltype(space)>>>(), starts);
+    const SteppedPaths paths = in_worker_or_host_space(true, [&](const auto& space) {
+      return step_along_paths(space, successors_.in<MemoryOf<std::decay_t<decltype(space)>>>(), starts);
     });
     for (Offset i = 0; i < static_cast<Offset>(paths.simplices.extent(0)); ++i) {
       stop_if_asked_at(i);

@@ -46,7 +46,7 @@ class Reacher {
         corners_(mesh_.cell_reader()),
         input_(mesh_.vertices_in_input()),
         internal_(mesh_.vertices_of_input()),
-        vertex_successors_(gradient.store().vertex_successors(), true),
+        vertex_successors_(gradient.store().vertex_successors(), is_beyond),
         cell_successors_(gradient.store().cell_successors(), gradient.store().further_successors.empty()),
         further_(gradient.store().further_successors),
         is_beyond_(is_beyond),

@@ -7,7 +7,7 @@
 namespace gale::detail {
 
 /// A wider gradient as walls on the host read it. Takes 8 bytes a vertex for rows, unless a grid's codes stand for
-/// them, beside WiderKeys. Refers to the gradient.
+/// them, beside WiderKeys and a copy of the successors of others' vertices. Refers to the gradient.
 class WiderGround {
  public:
   explicit WiderGround(const WiderGradient& wider);

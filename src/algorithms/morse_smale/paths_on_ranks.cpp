@@ -78,8 +78,10 @@ PathsHere follow_here(const Space& space, const PathSimplices& simplices, const 
   mark_reached(space, MarkReached<Memory>{next, exits, criticals, is_reached});
   const auto more = in_memory<Memory>(others);
   parallel_for(
-      "GALE::reached_exits", space, more.extent(0),
-      KOKKOS_LAMBDA(Offset i) { atomic_write(&is_reached(place_of_end(next(more(i))) - criticals), char(1)); });
+      "GALE::reached_exits", space, more.extent(0), KOKKOS_LAMBDA(Offset i) {
+        const Id at = place_of_end(next(more(i))) - criticals;
+        if (at >= 0) atomic_write(&is_reached(at), char(1));
+      });
   const Array<Id, Memory> reached = selected(
       "GALE::reached_exits", space, exits.extent(0), KOKKOS_LAMBDA(Offset i) { return is_reached(i) != 0; });
   space.fence();
@@ -183,19 +185,6 @@ std::vector<int> PathSimplices::owners(const std::vector<Id>& simplices) const {
   parallel_for("GALE::owners", HostExecutionSpace(), static_cast<Offset>(simplices.size()),
                [&](Offset i) { owners[i] = mesh().exchange().owner(vertex_input_[highest[i]]); });
   return owners;
-}
-
-int PathSimplices::owner(Id simplex) const {
-  Id highest = simplex;
-  if (!are_vertices_) {
-    const std::uint64_t* const keys = order_.keys();
-    const Quad corners = mesh().cell_reader()(simplex);
-    highest = corners.a;
-    for (const Id vertex : {corners.b, corners.c, corners.d}) {
-      if (keys[vertex] > keys[highest]) highest = vertex;
-    }
-  }
-  return mesh().exchange().owner(vertex_input_[highest]);
 }
 
 PathsOnRanks::PathsOnRanks(const PathSimplices& simplices, const std::vector<Id>& others)

@@ -44,9 +44,6 @@ class PathSimplices {
   /// The ranks that know the successors of some simplices. Finds them where successors are.
   std::vector<int> owners(const std::vector<Id>& simplices) const;
 
-  /// The rank that knows the successor: for few simplices, as keys and corners come to the host for cells.
-  int owner(Id simplex) const;
-
  private:
   std::vector<Id> highest_corners(const std::vector<Id>& cells) const;
 
@@ -115,7 +112,7 @@ class PathsOnRanks {
   Array<Id, HostMemory> exits_;  ///< ascending
   Mirrored<Id> ends_;
   Array<PathStop, HostMemory> stops_;  ///< of each exit: where paths from there are after 2^rounds changes of ranks
-  std::vector<Id> open_;               ///< the places of those that haven't ended yet, by global id
+  std::vector<Id> open_;               ///< the places of those that haven't ended yet, by their global ids
   int rounds_ = 0;
 };
 

@@ -12,7 +12,7 @@ namespace {
 
 /// An edge of a column, by its place among the critical ones of the rank that has it. A column that comes back to a
 /// rank may bring an edge again: an even number of times is none.
-struct FallenEdge {
+struct ColumnEdge {
   Id column, edge;
 };
 
@@ -48,7 +48,7 @@ class FallOnRanks {
 
   /// The critical edges of the columns that have stopped, of all that have met one of these edges, and so on: on the
   /// first rank. This rank's are numbered from these two on, in the order of the edges that they have met. Collective.
-  EntriesByRank<FallenEdge> operator()(Id first_stopped, Id first_met) {
+  EntriesByRank<ColumnEdge> operator()(Id first_stopped, Id first_met) {
     together(ranks_, [&] {
       number_.assign(columns_.saddles(), no_id);
       columns_.for_each_met([&](Id edge, const Column&) { number_[edge] = first_met++; });
@@ -59,7 +59,7 @@ class FallOnRanks {
       });
     });
     while (ranks_.sum(static_cast<std::int64_t>(exits_.size())) != 0) hand_over();
-    auto all = noted_to_first(ranks_, "GALE::fallen_edges", fallen_);
+    auto all = noted_to_first(ranks_, "GALE::column_edges", fallen_);
     fallen_.clear();
     return all;
   }
@@ -70,8 +70,8 @@ class FallOnRanks {
     explicit Fall(const EdgeChain& empty) : chain(empty) {}
 
     EdgeChain chain;
-    std::vector<FallenEdge> met;  ///< columns that are to fall, and the edges that they have met
-    std::vector<FallenEdge> fallen;
+    std::vector<ColumnEdge> met;  ///< columns that are to fall, and the edges that they have met
+    std::vector<ColumnEdge> fallen;
     std::vector<SentEdge> exits;
   };
 
@@ -91,7 +91,7 @@ class FallOnRanks {
       });
     };
     fall(count, begin);
-    for (std::vector<FallenEdge> met = taken(falls, &Fall::met); !met.empty(); met = taken(falls, &Fall::met)) {
+    for (std::vector<ColumnEdge> met = taken(falls, &Fall::met); !met.empty(); met = taken(falls, &Fall::met)) {
       fall(met.size(), [&](EdgeChain& chain, std::int64_t i) {
         chain.add(columns_.owner(met[i].edge)->rim);
         return met[i].column;
@@ -162,7 +162,7 @@ class FallOnRanks {
   const SaddleColumns& columns_;
   const int threads_;
   std::vector<Id> number_;  ///< of the column that has met each critical edge, until it falls
-  std::vector<FallenEdge> fallen_;
+  std::vector<ColumnEdge> fallen_;
   std::vector<SentEdge> exits_;  ///< that others have to follow
 };
 
@@ -171,7 +171,7 @@ class FallOnRanks {
 class ColumnsOfAll {
  public:
   ColumnsOfAll(const GatheredSaddles& all, const EntriesByRank<Id>& stopped, const EntriesByRank<Met>& met,
-               const EntriesByRank<FallenEdge>& fallen)
+               const EntriesByRank<ColumnEdge>& fallen)
       : filtration_(all.filtration),
         stopped_(static_cast<Id>(stopped.count())),
         columns_(stopped.count() + met.count()),

@@ -1,3 +1,5 @@
+#include <utility>
+
 #include <gale/algorithms/excerpt/gathering.hpp>
 #include <gale/algorithms/gradient/follow_each_path.hpp>
 #include <gale/algorithms/morse_smale/paths_on_ranks.hpp>
@@ -65,12 +67,22 @@ class Followers {
   void follow(Offset count, const Start& start, Stop* stops) const {
     follow_each_path("GALE::follow_here", simplices_.successors(), count, start,
                      [&](Offset i, Id last, Id next) { stops[i] = stop_at(last, next); });
+    std::vector<Id> left;
+    std::vector<Stop*> at;
+    for (Offset i = 0; i < count; ++i) {
+      if (stops[i].next < 0) continue;
+      left.push_back(std::exchange(stops[i].place, no_id));
+      at.push_back(&stops[i]);
+    }
+    const std::vector<int> owners = simplices_.owners(left);
+    for (std::size_t i = 0; i < at.size(); ++i) at[i]->rank = owners[i];
   }
 
+  /// Of a path that leaves the part the place is where, and the rank isn't known yet.
   Stop stop_at(Id last, Id next) const {
     if (next == no_id)
       return {ranks_.rank(), simplices_.are_vertices() ? places_.of_vertex(last) : places_.of_cell(last), -1};
-    if (next == DiscreteGradient::elsewhere) return {simplices_.owner(last), no_id, simplices_.global(last)};
+    if (next == DiscreteGradient::elsewhere) return {SentEnd::outside, last, simplices_.global(last)};
     return {};
   }
 

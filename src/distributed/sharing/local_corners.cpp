@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <gale/base/error.hpp>
 #include <gale/base/ordered.hpp>
 #include <gale/base/transfer.hpp>
 #include <gale/distributed/sharing/local_corners.hpp>
@@ -129,7 +130,13 @@ CornersIn<MemoryOf<Space>> corners_in(const Space& space, const LocalCells<Index
                                       [[maybe_unused]] Array<const Quad, WorkerMemory> rows) {
   const Offset count = cells.count(), corners = cells.corners();
   if constexpr (is_device<Space>) {
-    if (rows.extent(0) > 0 && cells.places().keep_order()) return corners_of_rows(space, cells, vertices, rows);
+    if (rows.extent(0) > 0 && cells.places().keep_order()) {
+      try {
+        return corners_of_rows(space, cells, vertices, rows);
+      } catch (const OutOfMemory&) {
+        // There may be room for them without rows beside.
+      }
+    }
     rows = {};
   }
   const auto all = allocate<CornersIn<MemoryOf<Space>>>("GALE::local_cells", count, corners);

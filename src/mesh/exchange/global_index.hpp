@@ -100,7 +100,7 @@ class RecentIds {
 /// The ids that `index` lacks among those that visit(i, offer) offers for i in 0..n-1: ascending, none twice.
 template <class Visit>
 GlobalIds missing_ids(const GlobalIndex& index, Offset n, const Visit& visit) {
-  const auto missing = of_parts("GALE::missing_ids", n, [&](Offset first, Offset last) {
+  auto missing = of_parts("GALE::missing_ids", n, [&](Offset first, Offset last) {
     std::vector<GlobalId> mine;
     RecentIds recent;
     for (Offset i = first; i < last; ++i) {
@@ -111,7 +111,7 @@ GlobalIds missing_ids(const GlobalIndex& index, Offset n, const Visit& visit) {
     keep_distinct(mine);
     return mine;
   });
-  return distinct_of("GALE::missing_ids", concatenated(missing));
+  return distinct_of("GALE::missing_ids", concatenated(std::move(missing)));
 }
 
 }  // namespace gale::detail
