@@ -68,7 +68,7 @@ GALE_EXPORT void prepare_copies(int threads);
 template <class Memory, class T, class... Properties>
 auto in_memory(const Kokkos::View<T, Properties...>& view) {
   using Given = Kokkos::View<T, Properties...>;
-  static_assert(int(Given::rank) == 1, "what is copied has one extent");
+  static_assert(int(Given::rank_dynamic) == 1, "extents but the first are constants");
   using There = Kokkos::View<T, typename Given::array_layout, Memory>;
   if constexpr (is_device_memory<typename Given::memory_space> == is_device_memory<Memory>) {
     return There(view);
