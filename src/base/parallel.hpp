@@ -123,8 +123,8 @@ Array<T, HostMemory> array_of(const std::string& label, const std::vector<T>& en
   return all;
 }
 
-/// So many zeros, in memory that the system gives on all host threads: where nobody wrote before, that takes longer
-/// than to write them.
+/// Makes so many zeros, in memory that the system gives on all host threads: where nobody wrote before, that takes
+/// longer than to write them.
 template <class T>
 std::vector<T> zeros(std::size_t count) {
   std::vector<T> all;

@@ -78,7 +78,7 @@ class Followers {
     for (std::size_t i = 0; i < at.size(); ++i) at[i]->rank = owners[i];
   }
 
-  /// Of a path that leaves the part the place is where, and the rank isn't known yet.
+  /// Says where a path ends. Where it leaves the part the place is that simplex, and the rank isn't known yet.
   Stop stop_at(Id last, Id next) const {
     if (next == no_id)
       return {ranks_.rank(), simplices_.are_vertices() ? places_.of_vertex(last) : places_.of_cell(last), -1};

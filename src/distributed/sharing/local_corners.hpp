@@ -15,11 +15,11 @@ template <class Space, class Index>
 CornersIn<MemoryOf<Space>> corners_in(const Space& space, const LocalCells<Index>& cells, const LocalVertices& vertices,
                                       Array<const Quad, WorkerMemory> rows);
 
-/// The same on the host, from the part's cells.
+/// Writes them on the host, from the part's cells.
 template <class Index>
 CellRows<Id> local_corners(const LocalCells<Index>& cells, const LocalVertices& vertices);
 
-/// The same from the rows of a part's cells, which keep their order (CellPlaces). Waits for it.
+/// Writes them from the rows of a part's cells, which keep their order (CellPlaces), and waits for that.
 template <class Space, class Index>
 CornersIn<MemoryOf<Space>> corners_of_rows(const Space& space, const LocalCells<Index>& cells,
                                            const LocalVertices& vertices,
