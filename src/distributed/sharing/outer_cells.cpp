@@ -19,6 +19,8 @@ void for_blocks(Offset first, Offset last, const Visit& visit) {
   for (Offset begin = first; begin < last; begin += block) visit(begin, std::min(begin + block, last));
 }
 
+}  // namespace
+
 /// The outer ones among a part's cells.
 template <class Index>
 class OuterCells {
@@ -66,6 +68,8 @@ class OuterCells {
   const Offset corners_;
   const IndexInterval<Index> inner_;
 };
+
+namespace {
 
 SomeCells some_cells(std::vector<std::vector<Id>> parts) {
   const auto places = concatenated(std::move(parts));
