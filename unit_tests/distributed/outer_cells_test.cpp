@@ -19,13 +19,13 @@ namespace {
 
 using Cell = std::vector<GlobalId>;
 
-constexpr GlobalId first_vertex = 1000;
+constexpr GlobalId first_of_all = 1000;
 
 /// Different vertices around `at`, so many apart at most, in any order.
 Cell cell_around(GlobalId at, GlobalId reach, int corners, std::mt19937& random) {
   std::set<GlobalId> vertices;
   while (static_cast<int>(vertices.size()) < corners)
-    vertices.insert(std::max<GlobalId>(at + static_cast<GlobalId>(random() % reach), first_vertex));
+    vertices.insert(std::max<GlobalId>(at + static_cast<GlobalId>(random() % reach), first_of_all));
   Cell cell(vertices.begin(), vertices.end());
   std::shuffle(cell.begin(), cell.end(), random);
   return cell;
@@ -38,9 +38,9 @@ struct AllParts {
   std::vector<std::vector<Cell>> cells;         ///< by rank
   std::vector<std::vector<GlobalId>> cell_ids;  ///< by rank
 
-  GlobalId end() const { return first_vertex + vertices * static_cast<GlobalId>(cells.size()); }
+  GlobalId end() const { return first_of_all + vertices * static_cast<GlobalId>(cells.size()); }
   detail::IdInterval own(int rank) const {
-    return {first_vertex + vertices * rank, first_vertex + vertices * (rank + 1)};
+    return {first_of_all + vertices * rank, first_of_all + vertices * (rank + 1)};
   }
   bool touches(const Cell& cell, int rank) const {
     return std::any_of(cell.begin(), cell.end(), [&](GlobalId v) { return own(rank).contains(v); });
@@ -81,7 +81,7 @@ AllParts parts_of(int ranks, int corners, Mix mix, Offset cells_of_each, bool in
       if (mix == Mix::few_outer && t % 9 == 0) at = own.end - 6;
       if (mix == Mix::all_outer) at = own.end - 1 - static_cast<GlobalId>(random() % 3);
       if (mix == Mix::anywhere)
-        at = first_vertex + static_cast<GlobalId>(random() % (all.end() - first_vertex - reach));
+        at = first_of_all + static_cast<GlobalId>(random() % (all.end() - first_of_all - reach));
       Cell cell = cell_around(std::min(at, all.end() - reach), reach, corners, random);
       if (mix == Mix::inner && !std::all_of(cell.begin(), cell.end(), [&](GlobalId v) { return own.contains(v); }))
         continue;
