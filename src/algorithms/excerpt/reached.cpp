@@ -46,7 +46,7 @@ class Reacher {
         corners_(mesh_.cell_reader()),
         input_(mesh_.vertices_in_input()),
         internal_(mesh_.vertices_of_input()),
-        vertex_successors_(gradient.store().vertex_successors(), is_beyond),
+        vertex_successors_(gradient.store().vertex_successors(), true),
         cell_successors_(gradient.store().cell_successors(), gradient.store().further_successors.empty()),
         further_(gradient.store().further_successors),
         is_beyond_(is_beyond),
@@ -92,7 +92,7 @@ class Reacher {
 
   /// Takes all steps that this rank can.
   void follow() {
-    vertex_successors_.follow(starts_of(StepKind::falling_vertex));
+    if (!edges_) vertex_successors_.follow(starts_of(StepKind::falling_vertex));
     cell_successors_.follow(starts_of(StepKind::rising_cell));
     std::vector<std::vector<std::array<Id, 2>>> falling(ranks_.size());  // edges from which alone edges fall, by asker
     for (std::int64_t i = 0; !here_.empty(); ++i) {
@@ -269,7 +269,7 @@ class Reacher {
   }
 
   void take_vertex(int asker, FoundFor& found, Id vertex) {
-    const Id next = vertex_successors_[vertex];
+    const Id next = edges_ ? edges_->vertex_successor(vertex) : vertex_successors_[vertex];
     found.vertex_steps.push_back({vertex, next});
     if (next != no_id) go({StepKind::falling_vertex, asker, {next}});
   }
@@ -328,7 +328,7 @@ class Reacher {
   const PathSimplices cells_;
   const CellReader corners_;
   const OtherIds input_, internal_;
-  PathSteps vertex_successors_, cell_successors_;
+  PathSteps vertex_successors_, cell_successors_;  ///< of vertices if all is beyond
   const std::vector<std::pair<Id, Id>>& further_;
   const bool is_beyond_;
   std::optional<EdgesOnHost> edges_;    ///< unless all is beyond

@@ -22,6 +22,9 @@ class EdgesOnHost {
     return is_higher(a, b) ? std::array<Id, 2>{a, b} : std::array<Id, 2>{b, a};
   }
 
+  /// What DiscreteGradient::vertex_successor says of a vertex.
+  Id vertex_successor(Id vertex) const { return vertex_successor_[vertex]; }
+
   /// What an edge is paired with, whose higher end this rank owns: the third vertex of that triangle, or why there is
   /// none. Triangles of a mesh of triangles are none here.
   Id third(Id high, Id low) const {
