@@ -25,7 +25,7 @@ class KeyTable {
     fill("GALE::key_table", space, keys_, none);
   }
 
-  Offset places() const { return static_cast<Offset>(keys_.extent(0)); }
+  KOKKOS_FUNCTION Offset places() const { return static_cast<Offset>(keys_.extent(0)); }
 
   /// The key at a place, or none.
   KOKKOS_FUNCTION std::uint64_t at(std::uint64_t place) const { return keys_(place); }
@@ -58,8 +58,27 @@ class KeyTable {
   Array<std::uint64_t, WorkerMemory> keys_;
 };
 
+/// Puts the keys of a table into a larger one.
+struct CopyKeys {
+  KeyTable from, to;
+
+  KOKKOS_FUNCTION void operator()(Offset place) const {
+    bool is_new;
+    if (from.at(place) != KeyTable::none) to.insert(from.at(place), is_new);
+  }
+};
+
 /// Bits that numbers below `count`, 1 or more, take.
 inline int bits_for(Offset count) { return highest_bit(static_cast<std::uint64_t>(count - 1) | 1) + 1; }
+
+/// Has a table have room for `keys` keys in all, with places to spare. Throws OutOfMemory.
+inline void make_room(const WorkerSpace& space, KeyTable& table, Offset keys) {
+  if (10 * keys <= 7 * table.places()) return;
+  const KeyTable larger(space, Offset(1) << bits_for(2 * keys));
+  parallel_for("GALE::copy_keys", space, table.places(), CopyKeys{table, larger});
+  space.fence();
+  table = larger;
+}
 
 /// Has an array in the workers' memory have at least `size` entries, and keeps the first `used`: twice as many as it
 /// had where there is room for that. Throws OutOfMemory.

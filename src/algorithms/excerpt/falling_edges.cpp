@@ -6,70 +6,91 @@ namespace gale::detail {
 
 namespace {
 
-/// Comes to an edge.
-struct ComeTo {
-  EdgesInKernels edges;
-  FallenEdges found;
+/// Edges that a thread comes to before it looks whether there is room for more: a first one, and two sides.
+constexpr Offset most_at_once = 3;
 
-  KOKKOS_FUNCTION void operator()(Id high, Id low) const {
+/// What stands for no edge to go on from.
+KOKKOS_FUNCTION FallenEdge no_edge() { return {no_id, no_id, no_id}; }
+
+/// Comes to edges and goes on from there, one thread of a launch.
+struct FallFrom {
+  EdgesInKernels edges;
+  Array<const std::uint64_t, WorkerMemory> keys;
+  FallenEdges found;
+  Offset threads;  ///< of the launch
+
+  /// Comes to an edge. Returns it if others fall from it and it is new, else none.
+  KOKKOS_FUNCTION FallenEdge come_to(Id high, Id low) const {
     const bool is_here = edges.owned.has(high);
     const Id third = is_here ? edges(high, low).third : no_id;
-    if (third == edge_has_vertex) return;
+    if (third == edge_has_vertex) return no_edge();
     bool is_new = false;
     found.known.insert(pair_key(high, low), is_new);
-    if (!is_new) return;
-    if (is_here) {
-      found.passed(atomic_add(&found.counts(0).passed, Offset(1))) = {high, low, third};
-    } else {
+    if (!is_new) return no_edge();
+    if (!is_here) {
       found.left(atomic_add(&found.counts(0).left, Offset(1))) = {high, low};
+      return no_edge();
     }
+    const FallenEdge edge{high, low, third};
+    found.passed(atomic_add(&found.counts(0).passed, Offset(1))) = edge;
+    return third < 0 ? no_edge() : edge;
   }
-};
 
-/// Goes on from the edges of a layer.
-struct CrossTriangle {
-  ComeTo come_to;
-  Array<const std::uint64_t, WorkerMemory> keys;
-  Offset first;
+  KOKKOS_FUNCTION void leave_open(const FallenEdge& edge) const {
+    if (edge.high != no_id) found.open(atomic_add(&found.counts(0).open, Offset(1))) = edge;
+  }
 
-  KOKKOS_FUNCTION void operator()(Offset i) const {
-    const FallenEdge edge = come_to.found.passed(first + i);
-    if (edge.third < 0) return;
-    come_to_side(edge.high, edge.third);
-    come_to_side(edge.low, edge.third);
+  /// Goes on from an edge, a first step in any case.
+  KOKKOS_FUNCTION void go_on(FallenEdge edge) const {
+    for (int step = 0; edge.high != no_id; ++step) {
+      if (step > 0 && !has_room()) return leave_open(edge);
+      const FallenEdge one = come_to_side(edge.high, edge.third), other = come_to_side(edge.low, edge.third);
+      const bool has_one = one.high != no_id;
+      if (has_one) leave_open(other);
+      edge = has_one ? one : other;
+    }
   }
 
  private:
-  KOKKOS_FUNCTION void come_to_side(Id end, Id third) const {
+  KOKKOS_FUNCTION FallenEdge come_to_side(Id end, Id third) const {
     const bool in_order = keys(end) > keys(third);
-    come_to(in_order ? end : third, in_order ? third : end);
+    return come_to(in_order ? end : third, in_order ? third : end);
   }
+
+  /// Is there room for a step of each thread?
+  KOKKOS_FUNCTION bool has_room() const {
+    const FallenCounts& counts = found.counts(0);
+    const Offset more = most_at_once * threads;
+    const Offset passed = atomic_read(&counts.passed) + more, left = atomic_read(&counts.left) + more;
+    return passed <= static_cast<Offset>(found.passed.extent(0)) && left <= static_cast<Offset>(found.left.extent(0)) &&
+           atomic_read(&counts.open) + more <= static_cast<Offset>(found.open.extent(0)) &&
+           10 * (passed + left) <= 7 * found.known.places();
+  }
+};
+
+/// Goes on from edges that were left open.
+struct FallFromOpen {
+  FallFrom fall;
+  Offset first;
+
+  KOKKOS_FUNCTION void operator()(Offset i) const { fall.go_on(fall.found.open(first + i)); }
 };
 
 /// Begins with some edges.
 struct BeginEdges {
-  ComeTo come_to;
+  FallFrom fall;
   Array<const Id, WorkerMemory> ends;  ///< two for each
 
-  KOKKOS_FUNCTION void operator()(Offset i) const { come_to(ends(2 * i), ends(2 * i + 1)); }
-};
-
-/// Puts the keys of a table into a larger one.
-struct CopyKeys {
-  KeyTable from, to;
-
-  KOKKOS_FUNCTION void operator()(Offset place) const {
-    bool is_new;
-    if (from.at(place) != KeyTable::none) to.insert(from.at(place), is_new);
-  }
+  KOKKOS_FUNCTION void operator()(Offset i) const { fall.go_on(fall.come_to(ends(2 * i), ends(2 * i + 1))); }
 };
 
 }  // namespace
 
 FallingEdges::FallingEdges(const DiscreteGradient& gradient)
     : edges_(gradient), keys_(gradient.order().keys_in<WorkerMemory>()) {
-  constexpr Offset least = 4096;
+  constexpr Offset least = 1 << 16;
   found_ = {KeyTable(space_, 4 * least), allocate<decltype(found_.passed)>("GALE::fallen_edges", least),
+            allocate<decltype(found_.open)>("GALE::open_edges", least),
             allocate<decltype(found_.left)>("GALE::left_edges", least),
             allocate<decltype(found_.counts)>("GALE::fallen_counts", 1)};
   fill("GALE::fallen_counts", space_, found_.counts, FallenCounts());
@@ -79,16 +100,16 @@ std::vector<std::array<Id, 2>> FallingEdges::fall(const std::vector<std::array<I
   if (edges.empty()) return {};
   const Offset left_before = counts_.left, count = static_cast<Offset>(edges.size());
   const auto ends = in_memory<WorkerMemory>(Array<const Id, HostMemory>(edges[0].data(), 2 * edges.size()));
-  Offset first = counts_.passed;
-  reserve(count);
-  parallel_for("GALE::begin_edges", space_, count, BeginEdges{{edges_, found_}, ends});
+  Offset first = counts_.open;
+  reserve(most_at_once * count);
+  parallel_for("GALE::begin_edges", space_, count, BeginEdges{{edges_, keys_, found_, count}, ends});
   take_counts();
-  while (first < counts_.passed) {
+  while (first < counts_.open) {
     stop_if_asked();
-    const Offset layer = counts_.passed - first;
-    reserve(2 * layer);
-    parallel_for("GALE::cross_triangles", space_, layer, CrossTriangle{{edges_, found_}, keys_, first});
-    first += layer;
+    const Offset open = counts_.open - first;
+    reserve(most_at_once * open);
+    parallel_for("GALE::fall_from_open", space_, open, FallFromOpen{{edges_, keys_, found_, open}, first});
+    first += open;
     take_counts();
   }
   const Array<std::array<Id, 2>, WorkerMemory> left =
@@ -109,12 +130,8 @@ std::vector<std::array<Id, 3>> FallingEdges::passed() const {
 void FallingEdges::reserve(Offset more) {
   make_room(space_, "GALE::fallen_edges", found_.passed, counts_.passed, counts_.passed + more);
   make_room(space_, "GALE::left_edges", found_.left, counts_.left, counts_.left + more);
-  const Offset known = counts_.passed + counts_.left + more;
-  if (10 * known <= 7 * found_.known.places()) return;
-  const KeyTable larger(space_, Offset(1) << bits_for(2 * known));
-  parallel_for("GALE::copy_keys", space_, found_.known.places(), CopyKeys{found_.known, larger});
-  space_.fence();
-  found_.known = larger;
+  make_room(space_, "GALE::open_edges", found_.open, counts_.open, counts_.open + more);
+  make_room(space_, found_.known, counts_.passed + counts_.left + more);
 }
 
 /// Learns how many kernels have found.

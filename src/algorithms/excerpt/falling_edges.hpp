@@ -14,23 +14,24 @@ struct FallenEdge {
   Id high, low, third;
 };
 
-/// How many edges kernels have found: those that were passed, and those that are other ranks' to follow.
+/// How many edges kernels have found: those that were passed, those that are other ranks' to follow, and of those that
+/// were passed the ones that others fall from, but no thread went on from yet.
 struct FallenCounts {
-  Offset passed = 0, left = 0;
+  Offset passed = 0, left = 0, open = 0;
 };
 
 /// Where kernels put edges that fall. Copies share it.
 struct FallenEdges {
   KeyTable known;  ///< all of these
-  Array<FallenEdge, WorkerMemory> passed;
+  Array<FallenEdge, WorkerMemory> passed, open;
   Array<std::array<Id, 2>, WorkerMemory> left;
   Array<FallenCounts, WorkerMemory> counts;  ///< one
 };
 
 /// Edges that fall along a gradient that kernels found: from one that is paired with a triangle to the other edges of
-/// that triangle, and so on. Each is passed once. A layer of edges at a time falls side by side, so that there are as
-/// many launches as the longest way has edges. Takes 36 to 100 bytes an edge in the workers' memory. Refers to the
-/// gradient.
+/// that triangle, and so on. Each is passed once. A thread goes down one way as long as there is room, and leaves open
+/// where ways part: these are the next launch's, so that there are as many launches as ways part one after the other.
+/// Takes 50 to 120 bytes an edge in the workers' memory. Refers to the gradient.
 class FallingEdges {
  public:
   /// Throws OutOfMemory.

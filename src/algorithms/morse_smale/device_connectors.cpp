@@ -15,18 +15,19 @@ namespace {
 template <class T>
 using Given = Kokkos::View<const T*, HostMemory, Kokkos::MemoryUnmanaged>;
 
-WallTable grown(const WorkerSpace& space, const WallTable& table, int edge_bits) {
-  const WallTable larger(space, 2 * table.places(), edge_bits);
+/// Puts critical triangles at the beginning, with open sides.
+void begin_walls(const WorkerSpace& space, Id count, const InWorkers<const Id>& vertices, const WallSink& sink) {
   parallel_for(
-      "GALE::grow_wall_table", space, table.places(), KOKKOS_LAMBDA(Offset i) { table.copy_to(larger, i); });
-  space.fence();
-  return larger;
+      "GALE::begin_walls", space, count, KOKKOS_LAMBDA(Offset i) {
+        sink.triangles(i) = {vertices(3 * i), vertices(3 * i + 1), vertices(3 * i + 2), static_cast<Id>(i)};
+        sink.open(i) = static_cast<std::uint32_t>(i);
+      });
 }
 
-/// Crosses the sides of `count` triangles.
-void cross_layer(const WorkerSpace& space, Offset first, Offset count, const CrossSides& sides) {
+/// Says which edges triangles are above.
+void put_above(const WorkerSpace& space, Offset triangles, const GrownWalls& walls) {
   parallel_for(
-      "GALE::grow_walls", space, count, KOKKOS_LAMBDA(Offset i) { sides(first + i); });
+      "GALE::put_above", space, triangles, KOKKOS_LAMBDA(Offset i) { walls.put_above(i); });
 }
 
 template <class T>
@@ -41,7 +42,7 @@ void append(std::vector<T>& entries, const InWorkers<T>& more) {
 
 /// Appends the path from each of these rims up to the wall's critical triangle, which it includes. Sources and
 /// destinations are the caller's.
-void append_paths(const WorkerSpace& space, const CrossSides& walls, const std::vector<WallRim>& from,
+void append_paths(const WorkerSpace& space, const GrownWalls& walls, const std::vector<WallRim>& from,
                   Separatrices<TriangleVertices>& paths) {
   const Offset count = static_cast<Offset>(from.size());
   const auto rims = in_memory<WorkerMemory>(Given<WallRim>(from.data(), from.size()));
@@ -51,7 +52,7 @@ void append_paths(const WorkerSpace& space, const CrossSides& walls, const std::
       "GALE::connector_lengths", space, count, KOKKOS_LAMBDA(Offset i) {
         Offset length = 0;
         bool only = true;
-        climb(walls, rims(i), [&](std::uint32_t, bool are_several) {
+        walls.climb(rims(i), [&](std::uint32_t, bool are_several) {
           ++length;
           only &= !are_several;
         });
@@ -63,8 +64,8 @@ void append_paths(const WorkerSpace& space, const CrossSides& walls, const std::
   parallel_for(
       "GALE::follow_connectors", space, count, KOKKOS_LAMBDA(Offset i) {
         Offset at = begin(i);
-        climb(walls, rims(i), [&](std::uint32_t number, bool) {
-          const WallTriangle& triangle = walls.sink.triangles(number);
+        walls.climb(rims(i), [&](std::uint32_t number, bool) {
+          const WallTriangle& triangle = walls.triangles(number);
           cells(at++) = {triangle.high, triangle.low, triangle.third};
         });
       });
@@ -76,28 +77,23 @@ void append_paths(const WorkerSpace& space, const CrossSides& walls, const std::
   append(paths.cells, cells);
 }
 
-/// Finds connectors in the descending walls of critical triangles, of which some grow side by side: a layer of
-/// triangles at a time, each across the edges that it isn't paired with. So there are as many launches as the deepest
-/// wall has layers; time and memory grow with all walls together.
+/// Finds connectors in the descending walls of critical triangles, of which some grow side by side. Takes as many
+/// launches as ways along walls part one after the other; time and memory grow with all walls together.
 class Connectors {
  public:
   Connectors(const WallRows& rows, const std::vector<TriangleVertices>& critical, const CriticalPlaces& places,
              Offset most_together)
-      : critical_(critical),
-        places_(places),
-        most_together_(most_together),
-        edge_bits_(bits_for(rows.edges())),
-        walls_{rows, {}, 0} {
+      : critical_(critical), places_(places), most_together_(most_together), rows_(rows) {
+    found_.keys.bits = bits_for(rows.edges());
     found_.counts = allocate<InWorkers<WallCounts>>("GALE::wall_counts", 1);
   }
 
   /// Appends those of some critical triangles: in halves, if their walls together are too many.
   void add(Id begin, Id end) {
     const Id size = end - begin;
-    if (size <= Offset(1) << std::min(63 - edge_bits_, 30)) {  // walls that keys can number
+    if (size <= Offset(1) << std::min(63 - found_.keys.bits, 30)) {  // walls that keys can number
       try {
-        grow(begin, size, size > 1 ? most_together_ : WallTable::most_triangles);
-        add_paths(begin);
+        add_paths(begin, grow(begin, size, size > 1 ? most_together_ : WallTable::most_triangles));
         return;
       } catch (const OutOfMemory&) {
         if (size == 1) throw;
@@ -110,69 +106,75 @@ class Connectors {
   Separatrices<TriangleVertices> paths;
 
  private:
-  void grow(Id first_wall, Id count, Offset most_triangles) {
+  GrownWalls grow(Id first_wall, Id count, Offset most_triangles) {
     begin(critical_.data() + first_wall, count);
-    for (Offset first = 0; first < counts_.triangles;) {
-      const Offset layer = counts_.triangles - first;
-      reserve(layer, most_triangles);
-      cross_layer(space_, first, layer, walls_);
+    for (Offset first = 0; first < counts_.open;) {
+      const Offset open = counts_.open - first;
+      reserve(GrowWalls::most_sides * open, most_triangles);
+      parallel_for("GALE::grow_walls", space_, open, GrowWalls{rows_, found_, count, first, open, most_triangles});
       Kokkos::deep_copy(space_, Kokkos::View<WallCounts*, HostMemory, Kokkos::MemoryUnmanaged>(&counts_, 1),
                         found_.counts);
       space_.fence();
-      first += layer;
+      first += open;
     }
+    const GrownWalls grown{rows_, found_.triangles, count, WallTable(space_, found_.edges, found_.keys)};
+    put_above(space_, counts_.triangles, grown);
+    return grown;
   }
 
   void begin(const TriangleVertices* critical, Id count) {
-    walls_.walls = count;
-    counts_ = {count, 0, 0};
     found_.triangles = {};  // of other walls
     found_.rims = {};
-    found_.table = {};
-    constexpr Offset least = 4096;
-    found_.triangles = allocate<InWorkers<WallTriangle>>("GALE::wall_triangles", std::max(4 * Offset(count), least));
-    found_.rims = allocate<InWorkers<WallRim>>("GALE::wall_rims", std::max(4 * Offset(count), least));
-    found_.table = WallTable(space_, Offset(1) << bits_for(std::max(8 * Offset(count), least)), edge_bits_);
-    std::vector<WallTriangle> roots;
-    for (Id i = 0; i < count; ++i) roots.push_back({critical[i][0], critical[i][1], critical[i][2], i});
-    Kokkos::deep_copy(first_of(found_.triangles, roots.size()), Given<WallTriangle>(roots.data(), roots.size()));
+    found_.open = {};
+    found_.edges = {};
+    counts_ = {count, 0, count};
+    const Offset room = std::max(8 * Offset(count), Offset(1) << 16);
+    found_.triangles = allocate<InWorkers<WallTriangle>>("GALE::wall_triangles", room);
+    found_.rims = allocate<InWorkers<WallRim>>("GALE::wall_rims", room);
+    found_.open = allocate<InWorkers<std::uint32_t>>("GALE::open_triangles", room);
+    found_.edges = KeyTable(space_, Offset(1) << bits_for(2 * room));
     Kokkos::deep_copy(found_.counts, Given<WallCounts>(&counts_, 1));
+    const auto vertices = in_memory<WorkerMemory>(Given<Id>(critical->data(), 3 * static_cast<std::size_t>(count)));
+    begin_walls(space_, count, vertices, found_);
+    space_.fence();
   }
 
-  /// Room for all that a layer of triangles can add.
-  void reserve(Offset layer, Offset most_triangles) {
-    const Offset more = 3 * layer, most = std::min(most_triangles, WallTable::most_triangles - more);
+  /// Room for all that a launch adds at least.
+  void reserve(Offset more, Offset most_triangles) {
+    const Offset most = std::min(most_triangles, WallTable::most_triangles - more);
     if (counts_.triangles > most) throw OutOfMemory("walls of more than " + std::to_string(most) + " triangles");
     make_room(space_, "GALE::wall_triangles", found_.triangles, counts_.triangles, counts_.triangles + more);
     make_room(space_, "GALE::wall_rims", found_.rims, counts_.rims, counts_.rims + more);
-    while (10 * (counts_.edges + more) > 7 * found_.table.places())
-      found_.table = grown(space_, found_.table, edge_bits_);
+    make_room(space_, "GALE::open_triangles", found_.open, counts_.open, counts_.open + more);
+    make_room(space_, found_.edges, counts_.triangles + counts_.rims + more);
   }
 
-  /// The rims come in no order: sorts them by wall and edge.
-  void add_paths(Id first) {
+  /// Sorts the rims, which come in no order, by wall and edge.
+  void add_paths(Id first, const GrownWalls& walls) {
     const auto there = on_host(first_of(found_.rims, counts_.rims));
-    std::vector<std::pair<Id, WallRim>> rims;
-    for (Offset i = 0; i < counts_.rims; ++i) rims.push_back({places_.of_edge(there(i).high, there(i).low), there(i)});
-    std::sort(rims.begin(), rims.end(), [](const auto& a, const auto& b) {
-      return std::make_pair(a.second.wall, a.first) < std::make_pair(b.second.wall, b.first);
+    using Keyed = std::pair<std::pair<Id, Id>, WallRim>;
+    auto rims = zeros<Keyed>(counts_.rims);
+    parallel_for("GALE::rims", HostExecutionSpace(), counts_.rims, [&](Offset i) {
+      const WallRim& rim = there(i);
+      rims[i] = {{rim.wall, places_.of_edge(rim.high, rim.low)}, rim};
     });
+    parallel_sort("GALE::sort_rims", rims.begin(), rims.end(),
+                  [](const Keyed& a, const Keyed& b) { return a.first < b.first; });
     std::vector<WallRim> sorted;
-    for (const auto& [place, rim] : rims) sorted.push_back(rim);
-    append_paths(space_, walls_, sorted, paths);
-    for (const auto& [place, rim] : rims) {
-      paths.sources.push_back(place);
-      paths.destinations.push_back(first + rim.wall);
+    for (const auto& [key, rim] : rims) {
+      sorted.push_back(rim);
+      paths.sources.push_back(key.second);
+      paths.destinations.push_back(first + key.first);
     }
+    append_paths(space_, walls, sorted, paths);
   }
 
   const WorkerSpace space_{};
   const std::vector<TriangleVertices>& critical_;
   const CriticalPlaces& places_;
   const Offset most_together_;
-  const int edge_bits_;
-  CrossSides walls_;
-  WallSink& found_ = walls_.sink;
+  const WallRows rows_;
+  WallSink found_;
   WallCounts counts_;
 };
 

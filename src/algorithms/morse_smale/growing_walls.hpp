@@ -26,80 +26,141 @@ struct WallRim {
   Id high, low;
 };
 
-/// How many a kernel has found so far.
+/// How many a kernel has found so far. Open are triangles whose sides no thread has crossed yet.
 struct WallCounts {
-  Offset triangles = 0, edges = 0, rims = 0;
+  Offset triangles = 0, rims = 0, open = 0;
 };
 
 /// Where the kernels that make walls grow put what they find. Copies share it.
 struct WallSink {
-  WallTable table;
+  KeyTable edges;  ///< of walls, by `keys`
+  WallEdgeKeys keys;
   InWorkers<WallTriangle> triangles;  ///< the critical ones first
   InWorkers<WallRim> rims;
-  InWorkers<WallCounts> counts;  ///< one
+  InWorkers<std::uint32_t> open;  ///< triangles by their numbers, the critical ones first
+  InWorkers<WallCounts> counts;   ///< one
 };
 
-/// Crosses the edges of one triangle. Those that are paired with vertices lead nowhere, and are left out.
-struct CrossSides {
+/// The sides of a wall's triangle that lead on from it.
+template <class Visit>
+KOKKOS_FUNCTION void for_each_side(const WallRows& rows, const WallTriangle& triangle, bool is_critical,
+                                   const Visit& visit) {
+  if (is_critical) visit(triangle.high, triangle.low);
+  visit(triangle.high, triangle.third);
+  const bool in_order = rows.keys[triangle.low] > rows.keys[triangle.third];
+  visit(in_order ? triangle.low : triangle.third, in_order ? triangle.third : triangle.low);
+}
+
+/// Grows walls from an open triangle, one thread of a launch: on along one way as long as there is room; where ways
+/// part the others are left open. Edges that are paired with vertices lead nowhere, and are left out.
+struct GrowWalls {
   WallRows rows;
   WallSink sink;
   Id walls;
+  Offset first, threads;  ///< of `open`, in this launch
+  Offset most_triangles;  ///< to come to while others may be left open
 
-  KOKKOS_FUNCTION void operator()(Offset triangle) const {
-    const auto number = static_cast<std::uint32_t>(triangle);
-    const WallTriangle from = sink.triangles(triangle);
-    if (triangle < walls) cross(from.high, from.low, from.wall, number);
-    cross(from.high, from.third, from.wall, number);
-    const bool in_order = rows.keys[from.low] > rows.keys[from.third];
-    cross(in_order ? from.low : from.third, in_order ? from.third : from.low, from.wall, number);
+  static constexpr Offset most_sides = 3;
+
+  KOKKOS_FUNCTION void operator()(Offset i) const {
+    std::uint32_t number = sink.open(first + i);
+    WallTriangle triangle = sink.triangles(number);
+    for (int step = 0; number != none; ++step) {
+      if (step > 0 && !has_room()) return leave_open(number);
+      std::uint32_t next = none;
+      WallTriangle next_triangle{};
+      for_each_side(rows, triangle, number < static_cast<std::uint32_t>(walls), [&](Id high, Id low) {
+        const Id third = come_to(triangle.wall, high, low);
+        if (third < 0) return;
+        leave_open(next);
+        next_triangle = {high, low, third, triangle.wall};
+        next = static_cast<std::uint32_t>(atomic_add(&sink.counts(0).triangles, Offset(1)));
+        sink.triangles(next) = next_triangle;
+      });
+      number = next;
+      triangle = next_triangle;
+    }
   }
 
+ private:
+  static constexpr std::uint32_t none = ~std::uint32_t(0);
+
+  /// Comes to an edge: the third vertex of the triangle that it is paired with if the wall grows on there, else none.
+  KOKKOS_FUNCTION Id come_to(Id wall, Id high, Id low) const {
+    const PairedEdge edge = rows.edge(high, low);
+    if (edge.third == edge_has_vertex) return no_id;
+    bool is_new = false;
+    sink.edges.insert(sink.keys(wall, edge.number), is_new);
+    if (!is_new) return no_id;
+    if (edge.third < 0) sink.rims(atomic_add(&sink.counts(0).rims, Offset(1))) = {wall, high, low};
+    return edge.third;
+  }
+
+  KOKKOS_FUNCTION void leave_open(std::uint32_t number) const {
+    if (number != none) sink.open(atomic_add(&sink.counts(0).open, Offset(1))) = number;
+  }
+
+  /// Is there room for a step of each thread?
+  KOKKOS_FUNCTION bool has_room() const {
+    const WallCounts& counts = sink.counts(0);
+    const Offset more = most_sides * threads;
+    const Offset triangles = atomic_read(&counts.triangles) + more, rims = atomic_read(&counts.rims) + more;
+    return triangles <= most_triangles && triangles <= static_cast<Offset>(sink.triangles.extent(0)) &&
+           rims <= static_cast<Offset>(sink.rims.extent(0)) &&
+           atomic_read(&counts.open) + more <= static_cast<Offset>(sink.open.extent(0)) &&
+           10 * (triangles + rims) <= 7 * sink.edges.places();
+  }
+};
+
+/// Walls that have grown.
+struct GrownWalls {
+  WallRows rows;
+  InWorkers<WallTriangle> triangles;  ///< the critical ones first
+  Id walls;
+  WallTable table;
+
+  /// Says of one triangle which edges it is above.
+  KOKKOS_FUNCTION void put_above(Offset triangle) const {
+    const auto number = static_cast<std::uint32_t>(triangle);
+    const WallTriangle from = triangles(triangle);
+    for_each_side(rows, from, triangle < walls, [&](Id high, Id low) {
+      const PairedEdge edge = rows.edge(high, low);
+      if (edge.third == edge_has_vertex) return;
+      table.put_above(table.find(from.wall, edge.number), number,
+                      [this](std::uint32_t a, std::uint32_t b) { return is_less(a, b); });
+    });
+  }
+
+  /// Calls visit(triangle, are_several) with each triangle on the way up from a rim, by its number, and whether there
+  /// are more where it was taken.
+  template <class Visit>
+  KOKKOS_FUNCTION void climb(const WallRim& rim, const Visit& visit) const {
+    for (Id high = rim.high, low = rim.low;;) {
+      const std::uint64_t at = table.find(rim.wall, rows.edge(high, low).number);
+      const std::uint32_t triangle = table.least_above(at);
+      visit(triangle, table.are_several_above(at));
+      if (triangle < static_cast<std::uint32_t>(walls)) return;
+      high = triangles(triangle).high;
+      low = triangles(triangle).low;
+    }
+  }
+
+ private:
   /// Is one triangle before another, both by their numbers, written with their input vertices ascending?
   KOKKOS_FUNCTION bool is_less(std::uint32_t a, std::uint32_t b) const {
     Id first[3], second[3];
-    write(sink.triangles(a), first);
-    write(sink.triangles(b), second);
+    write(triangles(a), first);
+    write(triangles(b), second);
     for (int i = 0; i < 2; ++i) {
       if (first[i] != second[i]) return first[i] < second[i];
     }
     return first[2] < second[2];
   }
 
- private:
   KOKKOS_FUNCTION void write(const WallTriangle& triangle, Id (&written)[3]) const {
     const Id ids[] = {rows.names[triangle.high], rows.names[triangle.low], rows.names[triangle.third]};
     for (int i = 0; i < 3; ++i) written[(ids[0] < ids[i]) + (ids[1] < ids[i]) + (ids[2] < ids[i])] = ids[i];
   }
-
-  KOKKOS_FUNCTION void cross(Id high, Id low, Id wall, std::uint32_t from) const {
-    const PairedEdge edge = rows.edge(high, low);
-    if (edge.third == edge_has_vertex) return;
-    bool is_new = false;
-    const std::uint64_t at = sink.table.insert(wall, edge.number, is_new);
-    sink.table.put_above(at, from, [this](std::uint32_t a, std::uint32_t b) { return is_less(a, b); });
-    if (!is_new) return;
-    atomic_add(&sink.counts(0).edges, Offset(1));
-    if (edge.third >= 0) {
-      sink.triangles(atomic_add(&sink.counts(0).triangles, Offset(1))) = {high, low, edge.third, wall};
-    } else {
-      sink.rims(atomic_add(&sink.counts(0).rims, Offset(1))) = {wall, high, low};
-    }
-  }
 };
-
-/// Calls visit(triangle, are_several) with each triangle on the way up from a rim, by its number, and whether there are
-/// more where it was taken.
-template <class Visit>
-KOKKOS_FUNCTION void climb(const CrossSides& walls, const WallRim& rim, const Visit& visit) {
-  const WallTable& table = walls.sink.table;
-  for (Id high = rim.high, low = rim.low;;) {
-    const std::uint64_t at = table.find(rim.wall, walls.rows.edge(high, low).number);
-    const std::uint32_t triangle = table.least_above(at);
-    visit(triangle, table.are_several_above(at));
-    if (triangle < static_cast<std::uint32_t>(walls.walls)) return;
-    high = walls.sink.triangles(triangle).high;
-    low = walls.sink.triangles(triangle).low;
-  }
-}
 
 }  // namespace gale::detail

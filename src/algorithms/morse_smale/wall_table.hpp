@@ -6,37 +6,31 @@
 
 namespace gale::detail {
 
-/// The edges of walls that grow side by side: a table that kernels insert into. An edge of a wall has the least of the
-/// wall's triangles that it isn't paired with, by its number, and whether there are more of these. Copies share it.
+/// Numbers the edges of several walls, for a KeyTable: `bits` suffice for the numbers of edges.
+struct WallEdgeKeys {
+  int bits = 0;
+
+  KOKKOS_FUNCTION std::uint64_t operator()(Id wall, Offset edge) const {
+    return std::uint64_t(wall) << bits | std::uint64_t(edge);
+  }
+};
+
+/// The edges of walls that have grown, for kernels: an edge of a wall has the least of the wall's triangles that it
+/// isn't paired with, by its number, and whether there are more of these. Copies share it.
 class WallTable {
  public:
   WallTable() = default;
 
-  /// With so many places, a power of two; `edge_bits` suffice for the numbers of edges. Throws OutOfMemory.
-  WallTable(const WorkerSpace& space, Offset places, int edge_bits)
-      : edges_(space, places),
-        above_(allocate<Array<std::uint32_t, WorkerMemory>>("GALE::triangles_above", places)),
-        edge_bits_(edge_bits) {
+  /// With edges that have no triangle yet. Throws OutOfMemory.
+  WallTable(const WorkerSpace& space, const KeyTable& edges, const WallEdgeKeys& keys)
+      : edges_(edges),
+        above_(allocate<Array<std::uint32_t, WorkerMemory>>("GALE::triangles_above", edges.places())),
+        keys_(keys) {
     fill("GALE::triangles_above", space, above_, no_triangle);
   }
 
-  Offset places() const { return edges_.places(); }
-
-  /// Copies the edge at a place, if there is one, to a larger table.
-  KOKKOS_FUNCTION void copy_to(const WallTable& larger, Offset place) const {
-    if (edges_.at(place) == KeyTable::none) return;
-    bool is_new;
-    larger.above_(larger.edges_.insert(edges_.at(place), is_new)) = above_(place);
-  }
-
-  /// The place of an edge of a wall, by the number that it has among all edges; `is_new` says whether it was inserted
-  /// now.
-  KOKKOS_FUNCTION std::uint64_t insert(Id wall, Offset edge, bool& is_new) const {
-    return edges_.insert(key(wall, edge), is_new);
-  }
-
-  /// The place of an edge that is there.
-  KOKKOS_FUNCTION std::uint64_t find(Id wall, Offset edge) const { return edges_.find(key(wall, edge)); }
+  /// The place of an edge of a wall, by the number that it has among all edges.
+  KOKKOS_FUNCTION std::uint64_t find(Id wall, Offset edge) const { return edges_.find(keys_(wall, edge)); }
 
   /// Says that a triangle is above the edge at a place. is_less(a, b) compares triangles by their numbers.
   template <class IsLess>
@@ -60,13 +54,9 @@ class WallTable {
  private:
   static constexpr std::uint32_t several = std::uint32_t(1) << 31, no_triangle = ~std::uint32_t(0);
 
-  KOKKOS_FUNCTION std::uint64_t key(Id wall, Offset edge) const {
-    return std::uint64_t(wall) << edge_bits_ | std::uint64_t(edge);
-  }
-
   KeyTable edges_;
   Array<std::uint32_t, WorkerMemory> above_;
-  int edge_bits_ = 0;
+  WallEdgeKeys keys_;
 };
 
 }  // namespace gale::detail
