@@ -340,6 +340,14 @@ template <class Memory>
 OtherIds Mesh::cells_in_input() const {
   return {grid() != nullptr ? nullptr : cell_input<Memory>().data()};
 }
+
+std::vector<Id> Mesh::input_of_vertices(const std::vector<Id>& vertices) const {
+  return grid() != nullptr ? vertices : detail::entries_at(data_->permutations().vertex_input, vertices);
+}
+std::vector<Id> Mesh::input_of_cells(const std::vector<Id>& cells) const {
+  return grid() != nullptr ? cells : detail::entries_at(data_->permutations().cell_input, cells);
+}
+
 template <class Memory>
 CellReader Mesh::cell_reader() const {
   if (grid() != nullptr) return {nullptr, grid()->in<Memory>()};

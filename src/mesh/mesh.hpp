@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <gale/base/memory.hpp>
 #include <gale/export.hpp>
@@ -208,6 +209,10 @@ class GALE_EXPORT Mesh {
   /// What cell_input() says, likewise.
   template <class Memory = HostMemory>
   OtherIds cells_in_input() const;
+
+  /// Input ids of some vertices or cells, read where all are known: none of the others' are copied.
+  std::vector<Id> input_of_vertices(const std::vector<Id>& vertices) const;
+  std::vector<Id> input_of_cells(const std::vector<Id>& cells) const;
 
   /// The vertices of cells. Valid as long as the mesh or a copy of it.
   template <class Memory = HostMemory>

@@ -8,33 +8,57 @@ namespace gale::detail {
 
 namespace {
 
-/// What all consumers found, sorted by `key`, which is unique.
+/// What all consumers found.
+template <class T>
+std::vector<T> gathered(std::vector<ConsumerFound>& parts, HostList<T> FoundSimplices<HostList>::*member) {
+  std::vector<std::vector<T>> lists;
+  for (auto& part : parts) lists.push_back(std::move(part.*member));
+  return concatenated(std::move(lists));
+}
+
+/// Sorts entries by their keys, which are unique.
 template <class T, class Key>
-std::vector<T> merged(const std::vector<ConsumerFound>& parts, HostList<T> FoundSimplices<HostList>::*member,
-                      const Key& key) {
-  std::size_t count = 0;
-  for (const auto& part : parts) count += (part.*member).size();
-  auto keyed = zeros<std::pair<decltype(key(T())), T>>(count);
-  Offset begin = 0;
-  for (const auto& part : parts) {
-    const std::vector<T>& own = part.*member;
-    parallel_for("GALE::critical_keys", HostExecutionSpace(), own.size(), [&](Offset i) {
-      keyed[begin + i] = {key(own[i]), own[i]};
-    });
-    begin += own.size();
-  }
+void sort_by(const std::vector<Key>& keys, std::vector<T>& all) {
+  auto keyed = zeros<std::pair<Key, T>>(all.size());
+  parallel_for("GALE::critical_keys", HostExecutionSpace(), all.size(), [&](Offset i) {
+    keyed[i] = {keys[i], all[i]};
+  });
   parallel_sort("GALE::sort_critical", keyed.begin(), keyed.end(),
                 [](const auto& a, const auto& b) { return a.first < b.first; });
-  auto all = zeros<T>(count);
-  parallel_for("GALE::critical", HostExecutionSpace(), count, [&](Offset i) { all[i] = keyed[i].second; });
+  parallel_for("GALE::critical", HostExecutionSpace(), all.size(), [&](Offset i) { all[i] = keyed[i].second; });
+}
+
+/// Simplices as users write them.
+template <std::size_t N>
+std::vector<std::array<Id, N>> written_simplices(const Mesh& mesh, const std::vector<std::array<Id, N>>& simplices) {
+  std::vector<Id> vertices;
+  reserve(vertices, N * simplices.size());
+  for (const auto& simplex : simplices) vertices.insert(vertices.end(), simplex.begin(), simplex.end());
+  const std::vector<Id> input = mesh.input_of_vertices(vertices);
+  auto all = zeros<std::array<Id, N>>(simplices.size());
+  parallel_for("GALE::written_simplices", HostExecutionSpace(), all.size(), [&](Offset i) {
+    std::copy_n(&input[N * i], N, all[i].begin());
+    all[i] = ascending(all[i]);
+  });
   return all;
 }
 
-/// A facet of cells as users write it: a triangle, or an edge, whose third vertex is no_id.
-std::array<Id, 3> written_facet(const OtherIds& vertex_input, const std::array<Id, 3>& facet) {
-  if (facet[2] != no_id) return written(vertex_input, facet);
-  const auto edge = written(vertex_input, std::array<Id, 2>{facet[0], facet[1]});
-  return {edge[0], edge[1], no_id};
+/// Critical facets of cells, triangles or edges, as users write them, and cells.
+template <std::size_t N>
+std::vector<std::pair<std::array<Id, N>, Id>> written_stars(const Mesh& mesh, const std::vector<InStar>& stars) {
+  auto facets = zeros<std::array<Id, N>>(stars.size());
+  std::vector<Id> cells(stars.size());
+  parallel_for("GALE::facets_in_stars", HostExecutionSpace(), stars.size(), [&](Offset i) {
+    std::copy_n(stars[i].simplex.begin(), N, facets[i].begin());
+    cells[i] = stars[i].cell;
+  });
+  facets = written_simplices(mesh, facets);
+  cells = mesh.input_of_cells(cells);
+  auto all = zeros<std::pair<std::array<Id, N>, Id>>(stars.size());
+  parallel_for("GALE::written_stars", HostExecutionSpace(), stars.size(), [&](Offset i) {
+    all[i] = {facets[i], cells[i]};
+  });
+  return all;
 }
 
 /// The row of each vertex that kernels found.
@@ -149,17 +173,21 @@ VertexSteps GradientStore::vertex_steps() const {
 }
 
 void GradientStore::finish() {
-  const OtherIds vertex_input = mesh.vertices_in_input();
-  const OtherIds cell_input = mesh.cells_in_input();
   using Found = FoundSimplices<HostList>;
-  const auto by_input = [=](const auto& simplex) { return written(vertex_input, simplex); };
-  const auto stars = merged(found_, &Found::stars, [=](const InStar& in_star) {
-    return std::make_pair(written_facet(vertex_input, in_star.simplex), cell_input[in_star.cell]);
-  });
-  critical.triangles = merged(found_, &Found::triangles, by_input);
-  critical.edges = merged(found_, &Found::edges, by_input);
-  critical.vertices = merged(found_, &Found::vertices, [=](Id vertex) { return vertex_input[vertex]; });
-  critical.cells = merged(found_, &Found::cells, [=](Id cell) { return cell_input[cell]; });
+  critical.triangles = gathered(found_, &Found::triangles);
+  sort_by(written_simplices(mesh, critical.triangles), critical.triangles);
+  critical.edges = gathered(found_, &Found::edges);
+  sort_by(written_simplices(mesh, critical.edges), critical.edges);
+  critical.vertices = gathered(found_, &Found::vertices);
+  sort_by(mesh.input_of_vertices(critical.vertices), critical.vertices);
+  critical.cells = gathered(found_, &Found::cells);
+  sort_by(mesh.input_of_cells(critical.cells), critical.cells);
+  std::vector<InStar> stars = gathered(found_, &Found::stars);
+  if (mesh.dimension() == 3) {
+    sort_by(written_stars<3>(mesh, stars), stars);
+  } else {
+    sort_by(written_stars<2>(mesh, stars), stars);
+  }
   for (const auto& some : found_)
     further_successors.insert(further_successors.end(), some.further_successors.begin(), some.further_successors.end());
   std::sort(further_successors.begin(), further_successors.end());
