@@ -76,11 +76,15 @@ detail::CopyStream::~CopyStream() {
   if (stream_ != nullptr) cudaStreamDestroy(static_cast<cudaStream_t>(stream_));
 }
 
-void detail::CopyStream::copy(void* to, const void* from, std::size_t bytes) const {
+void detail::CopyStream::begin_copy(void* to, const void* from, std::size_t bytes) const {
   use_device();
-  const auto stream = static_cast<cudaStream_t>(stream_);
-  require_success(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDefault, stream), "a copy to or from the device");
-  require_success(cudaStreamSynchronize(stream), "a copy to or from the device");
+  require_success(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDefault, static_cast<cudaStream_t>(stream_)),
+                  "a copy to or from the device");
+}
+
+void detail::CopyStream::wait() const {
+  use_device();
+  require_success(cudaStreamSynchronize(static_cast<cudaStream_t>(stream_)), "a copy to or from the device");
 }
 
 void detail::sort_by_key_on_device(const WorkerSpace& space, const Array<std::uint64_t, WorkerMemory>& keys,
@@ -145,7 +149,10 @@ void detail::unlock_pages(void*) {}
 
 detail::CopyStream::CopyStream() = default;
 detail::CopyStream::~CopyStream() = default;
-void detail::CopyStream::copy(void* to, const void* from, std::size_t bytes) const { std::memcpy(to, from, bytes); }
+void detail::CopyStream::begin_copy(void* to, const void* from, std::size_t bytes) const {
+  std::memcpy(to, from, bytes);
+}
+void detail::CopyStream::wait() const {}
 
 }  // namespace gale
 

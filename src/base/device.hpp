@@ -40,7 +40,14 @@ class CopyStream {
   CopyStream& operator=(CopyStream&&) = delete;
 
   /// Copies between the memories of host and device, and waits. Throws gale::Error if that fails.
-  void copy(void* to, const void* from, std::size_t bytes) const;
+  void copy(void* to, const void* from, std::size_t bytes) const {
+    begin_copy(to, from, bytes);
+    wait();
+  }
+
+  /// Begins such a copy, which is done when wait() returns. Both throw gale::Error if it fails.
+  void begin_copy(void* to, const void* from, std::size_t bytes) const;
+  void wait() const;
 
  private:
   void* stream_ = nullptr;

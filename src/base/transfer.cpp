@@ -54,15 +54,22 @@ void touch(void* memory, std::size_t size) {
           }};
 }
 
-constexpr std::size_t chunk_bytes = std::size_t(2) << 20;
+/// A thread writes one half of its chunk while the other travels. Halves fit a core's cache, so that what is written
+/// costs no bandwidth of the host's memory.
+constexpr std::size_t half_bytes = std::size_t(1) << 20, chunk_bytes = 2 * half_bytes;
 
 /// Enough for some to fill or empty their chunks while those of others travel.
 constexpr int most_channels = 16;
 
 /// One thread's way to the device and back, and the pinned memory that it goes through.
 struct CopyChannel {
-  detail::CopyStream stream;
   PinnedArray<char> chunk;
+  detail::CopyStream streams[2];  ///< of its halves
+
+  /// Waits for all copies that have begun.
+  void wait() const {
+    for (const detail::CopyStream& stream : streams) stream.wait();
+  }
 };
 
 /// The channels of the process, which live until Kokkos is finalized: pinning memory takes longer than most copies.
@@ -78,7 +85,8 @@ class CopyChannels {
     add_channels(std::min(threads, most_channels));
   }
 
-  /// Calls copy(channel, begin, size) for the pieces of `bytes` bytes, each of a chunk at most.
+  /// Calls copy(channel, begin, size) for the pieces of `bytes` bytes, each of a chunk at most. Returns when all copies
+  /// that these calls begin are done.
   template <class Copy>
   void for_pieces(std::size_t bytes, const Copy& copy) {
     const std::size_t chunks = (bytes + chunk_bytes - 1) / chunk_bytes;
@@ -88,11 +96,18 @@ class CopyChannels {
     add_channels(threads);
     std::atomic<std::size_t> next{0};
     on_threads(threads, [&](int thread) {
-      for (std::size_t chunk; (chunk = next++) < chunks;) {
-        detail::stop_if_asked();
-        const std::size_t begin = chunk * chunk_bytes;
-        copy(channels_[thread], begin, std::min(chunk_bytes, bytes - begin));
+      const CopyChannel& channel = channels_[thread];
+      try {
+        for (std::size_t chunk; (chunk = next++) < chunks;) {
+          detail::stop_if_asked();
+          const std::size_t begin = chunk * chunk_bytes;
+          copy(channel, begin, std::min(chunk_bytes, bytes - begin));
+        }
+      } catch (...) {
+        channel.wait();  // the caller may free what they write to
+        throw;
       }
+      channel.wait();
     });
   }
 
@@ -104,8 +119,7 @@ class CopyChannels {
     use_device();
     if (channels_.empty()) Kokkos::push_finalize_hook([this] { channels_.clear(); });
     const PinnedArray<char> chunks(static_cast<std::size_t>(missing) * chunk_bytes);
-    for (int i = 0; i < missing; ++i)
-      channels_.push_back({detail::CopyStream(), chunks.slice(i * chunk_bytes, chunk_bytes)});
+    for (int i = 0; i < missing; ++i) channels_.push_back({chunks.slice(i * chunk_bytes, chunk_bytes), {}});
   }
 
   std::mutex mutex_;
@@ -132,8 +146,14 @@ void write_to_device(void* device, std::size_t bytes,
                      const std::function<void(char* to, std::size_t begin, std::size_t size)>& write) {
   detail::wait_for(WorkerSpace(), "GALE::copy");
   CopyChannels::instance().for_pieces(bytes, [&](const CopyChannel& channel, std::size_t begin, std::size_t size) {
-    write(channel.chunk.data(), begin, size);
-    channel.stream.copy(static_cast<char*>(device) + begin, channel.chunk.data(), size);
+    for (std::size_t from = 0; from < size; from += half_bytes) {
+      const std::size_t count = std::min(half_bytes, size - from);
+      const detail::CopyStream& stream = channel.streams[from / half_bytes];
+      char* const half = channel.chunk.data() + from;
+      stream.wait();
+      write(half, begin + from, count);
+      stream.begin_copy(static_cast<char*>(device) + begin + from, half, count);
+    }
   });
 }
 
@@ -146,7 +166,7 @@ void copy_to_device(void* device, const void* host, std::size_t bytes) {
 void copy_from_device(void* host, const void* device, std::size_t bytes) {
   detail::wait_for(WorkerSpace(), "GALE::copy");
   CopyChannels::instance().for_pieces(bytes, [&](const CopyChannel& channel, std::size_t begin, std::size_t size) {
-    channel.stream.copy(channel.chunk.data(), static_cast<const char*>(device) + begin, size);
+    channel.streams[0].copy(channel.chunk.data(), static_cast<const char*>(device) + begin, size);
     std::memcpy(static_cast<char*>(host) + begin, channel.chunk.data(), size);
   });
 }

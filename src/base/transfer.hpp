@@ -56,7 +56,7 @@ GALE_EXPORT void copy_to_device(void* device, const void* host, std::size_t byte
 GALE_EXPORT void copy_from_device(void* host, const void* device, std::size_t bytes);
 
 /// Copies bytes that write(to, begin, size) puts at `to` as they are wanted: `size` of them from the begin-th on,
-/// by all host threads; both are multiples of 2 MiB, but for the last size.
+/// by all host threads; both are multiples of 1 MiB, but for the last size.
 GALE_EXPORT void write_to_device(void* device, std::size_t bytes,
                                  const std::function<void(char* to, std::size_t begin, std::size_t size)>& write);
 

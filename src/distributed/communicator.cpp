@@ -43,13 +43,14 @@ struct Communicator::Data {
   /// Waits for all, where `bytes` are sent or received. MPI's own functions would hold the core for as long as it
   /// takes: ranks that share a machine, and threads that compute, need it. So it looks again after an eighth of the
   /// time that it has waited, and at least every 2 ms, or 0.2 ms where messages are in pieces, as these go on only
-  /// then. As long as they may be on their way, at 1 GB/s, it doesn't sleep, but lets others run: each look moves a
-  /// piece. Each time it looks more than once, as MPI takes one step at each look, and a sum takes several.
+  /// then. As long as they may be on their way, at 250 MB/s as where two ranks send to each other, it doesn't sleep,
+  /// but lets others run: each look moves a piece. Each time it looks more than once, as MPI takes one step at each
+  /// look, and a sum takes several.
   void wait(std::vector<MPI_Request>& requests, std::int64_t bytes) {
     using Clock = std::chrono::steady_clock;
     constexpr std::int64_t in_pieces = 1 << 20;
     constexpr int looks = 16;
-    const std::chrono::microseconds longest(bytes < in_pieces ? 2000 : 200), patience(100 + bytes / 1000);
+    const std::chrono::microseconds longest(bytes < in_pieces ? 2000 : 200), patience(100 + bytes / 250);
     const auto begin = Clock::now();
     for (int done = 0;;) {
       for (int i = 0; i < looks && !done; ++i)

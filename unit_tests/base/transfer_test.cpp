@@ -31,9 +31,9 @@ TEST(Transfer, there_and_back_keeps_every_entry) {
 }
 
 TEST(Transfer, goes_in_pieces_through_pinned_memory) {
-  constexpr std::size_t mebi = 1 << 20;  // pieces have 2 MiB
+  constexpr std::size_t mebi = 1 << 20;  // pieces have 2 MiB, in halves
   prepare_copies(3);
-  for (const std::size_t count : {std::size_t(0), std::size_t(1), mebi / 2, 5 * mebi + 3}) {
+  for (const std::size_t count : {std::size_t(0), std::size_t(1), mebi / 4 + 1, mebi / 2, 5 * mebi + 3}) {
     const auto from = numbers(count), back = numbers(count);
     const auto there = allocate<Array<Id, WorkerMemory>>("there", count);
     Kokkos::deep_copy(back, 0);
@@ -43,6 +43,25 @@ TEST(Transfer, goes_in_pieces_through_pinned_memory) {
     for (std::size_t i = 0; i < count; ++i) different += back(i) != from(i);
     EXPECT_EQ(different, 0u) << "of " << count;
   }
+}
+
+TEST(Transfer, a_write_that_fails_leaves_the_next_as_it_should_be) {
+  constexpr std::size_t count = 3 << 20, bytes = count * sizeof(Id);
+  const auto there = allocate<Array<Id, WorkerMemory>>("there", count);
+  const auto write_but = [&](std::size_t refused) {
+    write_to_device(there.data(), bytes, [&](char* to, std::size_t begin, std::size_t size) {
+      EXPECT_EQ(begin % (1 << 20), 0u);
+      if (begin == refused) throw Error("refused");
+      for (std::size_t i = 0; i < size / sizeof(Id); ++i)
+        reinterpret_cast<Id*>(to)[i] = static_cast<Id>(begin / sizeof(Id) + i);
+    });
+  };
+  EXPECT_THROW(write_but(5 << 20), Error);
+  write_but(bytes);
+  const auto back = on_host(there);
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < count; ++i) different += back(i) != static_cast<Id>(i);
+  EXPECT_EQ(different, 0u);
 }
 
 TEST(Transfer, of_rows_of_four) {

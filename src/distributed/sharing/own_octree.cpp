@@ -48,19 +48,22 @@ void OwnOctree::require_finite() const {
   });
 }
 
-/// On a thread of its own, by a quarter of this one's threads.
+/// On a thread of its own, by a quarter of this one's threads, which meanwhile does with the others: where each of a
+/// loop's threads has as much to do, all wait for one that shares its core.
 void OwnOctree::begin(int capacity) {
   if (count_ == 0) return;
-  const int few = std::max(host_threads() / 4, 1);
+  const int all = host_threads(), few = std::max(all / 4, 1);
   begun_ =
       std::async(std::launch::async | std::launch::deferred, [points = points_.part(first_, count_), capacity, few] {
         use_device();
         const ThreadLimit limit(few);
         return octree_of(points, capacity);
       });
+  others_.emplace(all - few);
 }
 
 Segmentation OwnOctree::get(const HostPoints& owned, int capacity) {
+  others_.reset();
   if (!begun_.valid()) return octree_of(owned, capacity);
   return naming_points_among(points_, [&] { return begun_.get(); });
 }

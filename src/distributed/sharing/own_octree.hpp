@@ -1,7 +1,9 @@
 #pragma once
 
 #include <future>
+#include <optional>
 
+#include <gale/base/threads.hpp>
 #include <gale/distributed/mesh_part.hpp>
 #include <gale/distributed/sharing/vertex_directory.hpp>
 
@@ -16,7 +18,7 @@ class OwnOctree {
   /// Throws gale::Error for a point that isn't finite, but for those that a device is to look at.
   void require_finite() const;
 
-  /// Has the device begin.
+  /// Has the device begin. Until get(), loops of this thread use fewer threads than they may.
   void begin(int capacity);
 
   /// The octree, of `owned` where no device has begun it. Throws gale::Error as octree_of does; for a point that isn't
@@ -27,6 +29,7 @@ class OwnOctree {
   HostPoints points_;
   Offset first_ = 0, count_ = 0;  ///< places of those that a device looks at
   std::future<Segmentation> begun_;
+  std::optional<ThreadLimit> others_;  ///< the threads beside those that begin
 };
 
 }  // namespace gale::detail

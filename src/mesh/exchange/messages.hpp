@@ -43,7 +43,7 @@ EntriesByRank<T> room_by_rank(const char* label, const std::vector<std::int64_t>
 /// as long as for what comes: where there are many, all threads have it give them.
 template <class T>
 EntriesByRank<T> room_to_receive(const char* label, const std::vector<std::int64_t>& counts) {
-  constexpr std::size_t many_bytes = std::size_t(4) << 20;
+  constexpr std::size_t many_bytes = std::size_t(1) << 20;
   const EntriesByRank<T> all = room_by_rank<T>(label, counts);
   const std::size_t bytes = static_cast<std::size_t>(all.count()) * sizeof(T);
   if (bytes >= many_bytes) expect_writes(all.entries.data(), bytes, threads_for(all.count()));
