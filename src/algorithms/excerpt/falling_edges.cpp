@@ -19,21 +19,24 @@ struct FallFrom {
   FallenEdges found;
   Offset threads;  ///< of the launch
 
+  /// An edge, and what it is paired with: no_id where another rank knows.
+  KOKKOS_FUNCTION FallenEdge look_at(Id high, Id low) const {
+    return {high, low, edges.owned.has(high) ? edges(high, low).third : no_id};
+  }
+
   /// Comes to an edge. Returns it if others fall from it and it is new, else none.
-  KOKKOS_FUNCTION FallenEdge come_to(Id high, Id low) const {
-    const bool is_here = edges.owned.has(high);
-    const Id third = is_here ? edges(high, low).third : no_id;
-    if (third == edge_has_vertex) return no_edge();
+  KOKKOS_FUNCTION FallenEdge come_to(const FallenEdge& edge) const {
+    const bool is_here = edges.owned.has(edge.high);
+    if (is_here && edge.third == edge_has_vertex) return no_edge();
     bool is_new = false;
-    found.known.insert(pair_key(high, low), is_new);
+    found.known.insert(pair_key(edge.high, edge.low), is_new);
     if (!is_new) return no_edge();
     if (!is_here) {
-      found.left(atomic_add(&found.counts(0).left, Offset(1))) = {high, low};
+      found.left(atomic_add(&found.counts(0).left, Offset(1))) = {edge.high, edge.low};
       return no_edge();
     }
-    const FallenEdge edge{high, low, third};
     found.passed(atomic_add(&found.counts(0).passed, Offset(1))) = edge;
-    return third < 0 ? no_edge() : edge;
+    return edge.third < 0 ? no_edge() : edge;
   }
 
   KOKKOS_FUNCTION void leave_open(const FallenEdge& edge) const {
@@ -44,7 +47,8 @@ struct FallFrom {
   KOKKOS_FUNCTION void go_on(FallenEdge edge) const {
     for (int step = 0; edge.high != no_id; ++step) {
       if (step > 0 && !has_room()) return leave_open(edge);
-      const FallenEdge one = come_to_side(edge.high, edge.third), other = come_to_side(edge.low, edge.third);
+      const FallenEdge sides[] = {side(edge.high, edge.third), side(edge.low, edge.third)};
+      const FallenEdge one = come_to(sides[0]), other = come_to(sides[1]);
       const bool has_one = one.high != no_id;
       if (has_one) leave_open(other);
       edge = has_one ? one : other;
@@ -52,9 +56,9 @@ struct FallFrom {
   }
 
  private:
-  KOKKOS_FUNCTION FallenEdge come_to_side(Id end, Id third) const {
+  KOKKOS_FUNCTION FallenEdge side(Id end, Id third) const {
     const bool in_order = keys(end) > keys(third);
-    return come_to(in_order ? end : third, in_order ? third : end);
+    return look_at(in_order ? end : third, in_order ? third : end);
   }
 
   /// Is there room for a step of each thread?
@@ -81,7 +85,9 @@ struct BeginEdges {
   FallFrom fall;
   Array<const Id, WorkerMemory> ends;  ///< two for each
 
-  KOKKOS_FUNCTION void operator()(Offset i) const { fall.go_on(fall.come_to(ends(2 * i), ends(2 * i + 1))); }
+  KOKKOS_FUNCTION void operator()(Offset i) const {
+    fall.go_on(fall.come_to(fall.look_at(ends(2 * i), ends(2 * i + 1))));
+  }
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <gale/algorithms/gradient/gradient_store.hpp>
+#include <gale/base/error.hpp>
 
 namespace gale::detail {
 
@@ -10,27 +11,52 @@ struct PairedEdge {
   Id third;       ///< of the triangle that it is paired with, or why there is none: edge_is_critical, edge_has_vertex
 };
 
-/// The edges of a gradient that kernels found, for kernels: those whose higher ends this rank owns. Owns nothing.
+/// The edges of a gradient that kernels found, for kernels: those whose higher ends this rank owns. Of a grid they are
+/// read from codes, one load each, where there is room for these. Owns nothing.
 struct EdgesInKernels {
   const Id* pair_words;
   const Offset* pairs_begin;
   const Id* vertex_successor;
-  Interval owned;  ///< vertices
-  Offset count;    ///< numbers of edges are below
+  const std::uint64_t* codes = nullptr;  ///< by vertex
+  GridSteps steps{};                     ///< of the grid that has them
+  Interval owned;                        ///< vertices
+  Offset count;                          ///< numbers of edges are below
 
   explicit EdgesInKernels(const DiscreteGradient& gradient)
       : pair_words(gradient.store().pair_words().in<WorkerMemory>().data()),
         pairs_begin(gradient.store().pairs_begin().in<WorkerMemory>().data()),
         vertex_successor(gradient.store().vertex_successors().in<WorkerMemory>().data()),
         owned(gradient.mesh().owned_vertices()),
-        count(static_cast<Offset>(gradient.store().pair_words().size())) {}
+        count(static_cast<Offset>(gradient.store().pair_words().size())) {
+    if (!gradient.store().has_codes()) return;
+    try {
+      codes = gradient.store().codes().in<WorkerMemory>().data();
+      steps = GridSteps(gradient.mesh().grid()->in<WorkerMemory>());
+      count = grid_directions * Offset(gradient.mesh().vertices());
+    } catch (const OutOfMemory&) {
+      codes = nullptr;
+    }
+  }
 
-  /// An edge of an owned vertex to a lower one. Its number is the place of its word.
+  /// An edge of an owned vertex to a lower one.
   KOKKOS_FUNCTION PairedEdge operator()(Id high, Id low) const {
+    return codes == nullptr ? in_row(high, low) : in_code(high, low);
+  }
+
+ private:
+  /// Its number is the place of its word.
+  KOKKOS_FUNCTION PairedEdge in_row(Id high, Id low) const {
     const EdgePairRow row(const_cast<Id*>(pair_words) + pairs_begin[high]);  // nobody writes to it
     const Id place = row.find(low), third = row.third(place);
     const Id why_none = vertex_successor[high] == low ? edge_has_vertex : edge_is_critical;
     return {pairs_begin[high] + 1 + place, third == no_id ? why_none : third};
+  }
+
+  KOKKOS_FUNCTION PairedEdge in_code(Id high, Id low) const {
+    const PairCode code(codes[high]);
+    const int direction = steps.direction(low - high), to = code[direction];
+    const Id why_none = code[PairCode::itself] == direction ? edge_has_vertex : edge_is_critical;
+    return {grid_directions * Offset(high) + direction, to < PairCode::unpaired ? high + steps.step[to] : why_none};
   }
 };
 

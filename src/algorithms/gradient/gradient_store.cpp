@@ -72,9 +72,9 @@ struct FoundRows {
   }
 };
 
-/// The codes of a grid's rows, which are a sixth of these to bring to the host. Ghosts have no lower neighbours.
+/// The codes of a grid's rows. Ghosts have no lower neighbours.
 template <class Space>
-Array<const std::uint64_t, HostMemory> encoded_in(const Space& space, const GradientStore& store) {
+Mirrored<std::uint64_t> encoded_in(const Space& space, const GradientStore& store) {
   using Memory = MemoryOf<Space>;
   const Mesh& mesh = store.mesh;
   const Interval owned = mesh.owned_vertices();
@@ -89,12 +89,7 @@ Array<const std::uint64_t, HostMemory> encoded_in(const Space& space, const Grad
   if (owned.size() < mesh.vertices()) fill("GALE::pair_codes", space, encode.codes, PairCode().bits());
   parallel_for("GALE::encode_rows", space, owned.size(), encode);
   space.fence();
-  return on_host(encode.codes);
-}
-
-Array<const std::uint64_t, HostMemory> encoded_rows(const GradientStore& store) {
-  return in_worker_or_host_space(store.pair_words().on_device(),
-                                 [&](const auto& space) { return encoded_in(space, store); });
+  return encode.codes;
 }
 
 }  // namespace
@@ -153,10 +148,17 @@ std::shared_ptr<GradientStore> GradientStore::on_host(const VertexOrder& order, 
   return store;
 }
 
+const Mirrored<std::uint64_t>& GradientStore::codes() const {
+  return codes_.get([this] {
+    return in_worker_or_host_space(pair_words_.on_device(),
+                                   [&](const auto& space) { return encoded_in(space, *this); });
+  });
+}
+
 const EdgePairs& GradientStore::pairs() const {
   pairs_are_here_([this] {
-    if (is_from_kernels() && mesh.grid() != nullptr && mesh.grid()->is_whole()) {
-      pairs_ = EdgePairs(std::make_shared<GridCodes>(mesh.grid()->in<HostMemory>(), encoded_rows(*this)),
+    if (has_codes()) {
+      pairs_ = EdgePairs(std::make_shared<GridCodes>(mesh.grid()->in<HostMemory>(), codes().in<HostMemory>()),
                          {0, mesh.vertices()});
     } else if (is_from_kernels()) {
       pairs_ = EdgePairs(pair_words_.in<HostMemory>(), pairs_begin_.in<HostMemory>(), 0);

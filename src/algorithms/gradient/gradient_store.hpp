@@ -8,6 +8,7 @@
 #include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/algorithms/gradient/edge_pairs.hpp>
 #include <gale/algorithms/vertex_order.hpp>
+#include <gale/base/mirrored.hpp>
 #include <gale/base/ordered.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/export.hpp>
@@ -200,6 +201,11 @@ class GALE_EXPORT GradientStore {
   const Mirrored<Id>& pair_words() const { return pair_words_; }
   const Mirrored<Offset>& pairs_begin() const { return pairs_begin_; }
 
+  /// Codes of all vertices (PairCode), which say the same of a grid that has all its cubes in a sixth of these words:
+  /// made when somebody first asks for them. Throws OutOfMemory; a later call tries again.
+  bool has_codes() const { return is_from_kernels() && mesh.grid() != nullptr && mesh.grid()->is_whole(); }
+  const Mirrored<std::uint64_t>& codes() const;
+
   /// For DiscreteGradient, which looks them up often.
   mutable HostSuccessors host_successors;
 
@@ -217,6 +223,7 @@ class GALE_EXPORT GradientStore {
   Mirrored<Id> pair_words_;
   Mirrored<Offset> pairs_begin_;
   bool are_pairs_consumers_ = false;  ///< whether consumers fill `pairs_`: else it is made when it is asked for
+  OnceMade<Mirrored<std::uint64_t>> codes_;
   mutable EdgePairs pairs_;
   mutable Once pairs_are_here_;
   std::vector<ConsumerFound> found_;  ///< by each consumer

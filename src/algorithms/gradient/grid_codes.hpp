@@ -32,6 +32,27 @@ class PairCode {
   std::uint64_t bits_ = ~std::uint64_t(0);
 };
 
+/// From a vertex of such a grid to its neighbours, by their directions.
+struct GridSteps {
+  Id step[grid_directions];
+
+  GridSteps() = default;
+  explicit GridSteps(const GridView& grid) {
+    const Id row = grid.nx, layer = grid.nx * grid.ny;
+    const Id all[] = {-layer - row - 1, -layer - row, -layer - 1, -layer,      -row - 1,       -row, -1, 1, row,
+                      row + 1,          layer,        layer + 1,  layer + row, layer + row + 1};
+    for (int d = 0; d < grid_directions; ++d) step[d] = all[d];
+  }
+
+  /// The direction of a step between neighbours; -1 if it is none.
+  KOKKOS_FUNCTION int direction(Id between) const {
+    for (int d = 0; d < grid_directions; ++d) {
+      if (step[d] == between) return d;
+    }
+    return -1;
+  }
+};
+
 /// Makes the codes of some vertices of such a grid from their rows, which row_of(vertex) says, an EdgePairRow.
 template <class Memory, class RowOf>
 struct EncodeRows {
@@ -71,11 +92,7 @@ struct EncodeRows {
 /// The codes of a grid that has all its cubes, as the host reads them.
 class GridCodes {
  public:
-  GridCodes(const GridView& grid, const Array<const std::uint64_t, HostMemory>& codes) : codes_(codes) {
-    const Id row = grid.nx, layer = grid.nx * grid.ny;
-    steps_ = {-layer - row - 1, -layer - row, -layer - 1, -layer,      -row - 1,       -row, -1, 1, row,
-              row + 1,          layer,        layer + 1,  layer + row, layer + row + 1};
-  }
+  GridCodes(const GridView& grid, const Array<const std::uint64_t, HostMemory>& codes) : codes_(codes), steps_(grid) {}
 
   PairCode operator[](Id vertex) const { return PairCode(codes_(vertex)); }
   const std::uint64_t* place(Id vertex) const { return &codes_(vertex); }
@@ -88,21 +105,16 @@ class GridCodes {
   }
 
   /// From a vertex to its neighbour in a direction.
-  Id step(int direction) const { return steps_[direction]; }
+  Id step(int direction) const { return steps_.step[direction]; }
 
   /// The direction of a step between neighbours; -1 if it is none.
-  int direction(Id step) const {
-    for (int d = 0; d < grid_directions; ++d) {
-      if (steps_[d] == step) return d;
-    }
-    return -1;
-  }
+  int direction(Id step) const { return steps_.direction(step); }
 
   std::size_t bytes() const { return codes_.extent(0) * sizeof(std::uint64_t); }
 
  private:
   Array<const std::uint64_t, HostMemory> codes_;  ///< by vertex
-  std::array<Id, grid_directions> steps_;
+  GridSteps steps_;
 };
 
 }  // namespace gale::detail

@@ -41,18 +41,31 @@ struct WallSink {
   InWorkers<WallCounts> counts;   ///< one
 };
 
-/// The sides of a wall's triangle that lead on from it.
+/// A side of a wall's triangle, the higher end first.
+struct WallSide {
+  Id high, low;
+  PairedEdge edge;
+};
+
+/// Calls visit(side) for the sides of a wall's triangle that lead on from it: those that are paired with vertices lead
+/// nowhere. All are looked up before the first visit, so that their loads are under way together.
 template <class Visit>
 KOKKOS_FUNCTION void for_each_side(const WallRows& rows, const WallTriangle& triangle, bool is_critical,
                                    const Visit& visit) {
-  if (is_critical) visit(triangle.high, triangle.low);
-  visit(triangle.high, triangle.third);
   const bool in_order = rows.keys[triangle.low] > rows.keys[triangle.third];
-  visit(in_order ? triangle.low : triangle.third, in_order ? triangle.third : triangle.low);
+  WallSide sides[] = {{in_order ? triangle.low : triangle.third, in_order ? triangle.third : triangle.low, {}},
+                      {triangle.high, triangle.third, {}},
+                      {triangle.high, triangle.low, {0, edge_has_vertex}}};
+  for (int i = 0; i < 3; ++i) {
+    if (i < 2 || is_critical) sides[i].edge = rows.edge(sides[i].high, sides[i].low);
+  }
+  for (int i = 0; i < 3; ++i) {
+    if (sides[i].edge.third != edge_has_vertex) visit(sides[i]);
+  }
 }
 
 /// Grows walls from an open triangle, one thread of a launch: on along one way as long as there is room; where ways
-/// part the others are left open. Edges that are paired with vertices lead nowhere, and are left out.
+/// part the others are left open.
 struct GrowWalls {
   WallRows rows;
   WallSink sink;
@@ -69,11 +82,10 @@ struct GrowWalls {
       if (step > 0 && !has_room()) return leave_open(number);
       std::uint32_t next = none;
       WallTriangle next_triangle{};
-      for_each_side(rows, triangle, number < static_cast<std::uint32_t>(walls), [&](Id high, Id low) {
-        const Id third = come_to(triangle.wall, high, low);
-        if (third < 0) return;
+      for_each_side(rows, triangle, number < static_cast<std::uint32_t>(walls), [&](const WallSide& side) {
+        if (!come_to(triangle.wall, side)) return;
         leave_open(next);
-        next_triangle = {high, low, third, triangle.wall};
+        next_triangle = {side.high, side.low, side.edge.third, triangle.wall};
         next = static_cast<std::uint32_t>(atomic_add(&sink.counts(0).triangles, Offset(1)));
         sink.triangles(next) = next_triangle;
       });
@@ -85,15 +97,13 @@ struct GrowWalls {
  private:
   static constexpr std::uint32_t none = ~std::uint32_t(0);
 
-  /// Comes to an edge: the third vertex of the triangle that it is paired with if the wall grows on there, else none.
-  KOKKOS_FUNCTION Id come_to(Id wall, Id high, Id low) const {
-    const PairedEdge edge = rows.edge(high, low);
-    if (edge.third == edge_has_vertex) return no_id;
+  /// Comes to a side. Does the wall grow on behind it?
+  KOKKOS_FUNCTION bool come_to(Id wall, const WallSide& side) const {
     bool is_new = false;
-    sink.edges.insert(sink.keys(wall, edge.number), is_new);
-    if (!is_new) return no_id;
-    if (edge.third < 0) sink.rims(atomic_add(&sink.counts(0).rims, Offset(1))) = {wall, high, low};
-    return edge.third;
+    sink.edges.insert(sink.keys(wall, side.edge.number), is_new);
+    if (!is_new || side.edge.third >= 0) return is_new;
+    sink.rims(atomic_add(&sink.counts(0).rims, Offset(1))) = {wall, side.high, side.low};
+    return false;
   }
 
   KOKKOS_FUNCTION void leave_open(std::uint32_t number) const {
@@ -123,10 +133,8 @@ struct GrownWalls {
   KOKKOS_FUNCTION void put_above(Offset triangle) const {
     const auto number = static_cast<std::uint32_t>(triangle);
     const WallTriangle from = triangles(triangle);
-    for_each_side(rows, from, triangle < walls, [&](Id high, Id low) {
-      const PairedEdge edge = rows.edge(high, low);
-      if (edge.third == edge_has_vertex) return;
-      table.put_above(table.find(from.wall, edge.number), number,
+    for_each_side(rows, from, triangle < walls, [&](const WallSide& side) {
+      table.put_above(table.find(from.wall, side.edge.number), number,
                       [this](std::uint32_t a, std::uint32_t b) { return is_less(a, b); });
     });
   }
