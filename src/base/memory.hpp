@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -38,6 +39,29 @@ void reserve(std::vector<T>& entries, std::size_t count) {
   entries.reserve(count);
   if constexpr (have_device) detail::advise_huge_pages(entries.data(), count * sizeof(T));
 }
+
+namespace detail {
+
+/// A vector that can take entries without writing them: where these are many, one thread would need longer for zeros
+/// than all threads for what is written over them. With libstdc++; other libraries' vectors write zeros.
+template <class T>
+class UnwrittenVector : public std::vector<T> {
+  static_assert(std::is_trivially_copy_constructible_v<T> && std::is_trivially_destructible_v<T>, "bytes alone");
+
+ public:
+  /// Makes room for so many entries, see `reserve`, that are to be written on so many threads.
+  UnwrittenVector(std::size_t count, int threads) {
+    reserve(*this, count);
+    expect_writes(this->data(), count * sizeof(T), threads);
+#ifdef __GLIBCXX__
+    this->_M_impl._M_finish = this->_M_impl._M_start + count;
+#else
+    this->resize(count);
+#endif
+  }
+};
+
+}  // namespace detail
 
 /// The first entries of an array.
 template <class View>

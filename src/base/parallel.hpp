@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <memory>
 #include <numeric>
 #include <string>
 #include <type_traits>
@@ -123,14 +124,19 @@ Array<T, HostMemory> array_of(const std::string& label, const std::vector<T>& en
   return all;
 }
 
-/// Makes so many zeros, in memory that the system gives on all host threads: where nobody wrote before, that takes
-/// longer than to write them.
+/// So many entries that are to be written from end to end, in memory that the system gives on all host threads: where
+/// nobody wrote before, that takes longer than to write them.
+template <class T>
+std::vector<T> unwritten(std::size_t count) {
+  return UnwrittenVector<T>(count, threads_for(static_cast<Offset>(count)));
+}
+
+/// So many zeros, likewise.
 template <class T>
 std::vector<T> zeros(std::size_t count) {
-  std::vector<T> all;
-  reserve(all, count);
-  expect_writes(all.data(), count * sizeof(T), threads_for(static_cast<Offset>(count)));
-  all.resize(count);
+  auto all = unwritten<T>(count);
+  for_parts("GALE::zeros", static_cast<Offset>(count), threads_for(static_cast<Offset>(count)),
+            [&](int, Offset begin, Offset end) { std::uninitialized_fill(all.data() + begin, all.data() + end, T()); });
   return all;
 }
 

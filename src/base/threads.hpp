@@ -1,7 +1,9 @@
 #pragma once
 
 #include <atomic>
+#include <condition_variable>
 #include <cstdint>
+#include <deque>
 #include <exception>
 #include <functional>
 #include <mutex>
@@ -9,10 +11,9 @@
 #include <system_error>
 #include <thread>
 #include <utility>
-
-#ifdef GALE_ENABLE_STD_THREADS
 #include <vector>
-#else
+
+#ifndef GALE_ENABLE_STD_THREADS
 #include <omp.h>
 #endif
 
@@ -118,6 +119,46 @@ template <class... Work>
 void side_by_side(const Work&... work) {
   const std::function<void()> all[] = {work...};
   in_turns(host_threads(), sizeof...(work), [&](int, std::int64_t i) { all[i](); });
+}
+
+/// Calls `body(thread, item, add)` for each of some items, and for each that a body gives to add(item), on `count`
+/// threads, in the order in which they were given: one that waits for an item gets it at once. Exceptions as in
+/// `in_turns`.
+template <class Item, class Body>
+void in_turns_with_more(int count, const std::vector<Item>& items, const Body& body) {
+  if (items.empty()) return;
+  std::mutex mutex;
+  std::condition_variable changed;
+  std::deque<Item> left(items.begin(), items.end());
+  int busy = 0;  // threads that may still add some
+  const auto add = [&](const Item& item) {
+    const std::lock_guard<std::mutex> lock(mutex);
+    left.push_back(item);
+    changed.notify_one();
+  };
+  on_threads(count, [&](int thread) {
+    std::unique_lock<std::mutex> lock(mutex);
+    for (;;) {
+      changed.wait(lock, [&] { return !left.empty() || busy == 0; });
+      if (left.empty()) return;
+      const Item item = left.front();
+      left.pop_front();
+      ++busy;
+      lock.unlock();
+      try {
+        stop_if_asked();
+        body(thread, item, add);
+      } catch (...) {
+        lock.lock();
+        left.clear();
+        --busy;
+        changed.notify_all();
+        throw;
+      }
+      lock.lock();
+      if (--busy == 0) changed.notify_all();
+    }
+  });
 }
 
 /// A new thread that runs `body`. Throws Error where the system starts no more.

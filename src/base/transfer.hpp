@@ -96,7 +96,7 @@ auto on_host(const Kokkos::View<T, Properties...>& view) {
 /// The entries of an array in either memory, in a vector. From a device they come right there.
 template <class T, class Memory>
 std::vector<std::remove_const_t<T>> vector_of(const Kokkos::View<T*, Memory>& array) {
-  auto entries = detail::zeros<std::remove_const_t<T>>(array.extent(0));
+  auto entries = detail::unwritten<std::remove_const_t<T>>(array.extent(0));
   if constexpr (is_device_memory<Memory>) {
     copy_from_device(entries.data(), array.data(), entries.size() * sizeof(T));
   } else {

@@ -1,7 +1,7 @@
 #include <array>
 #include <utility>
 
-#include <gale/base/memory.hpp>
+#include <gale/base/parallel.hpp>
 #include <gale/mesh/exchange/exchange_plan.hpp>
 #include <gale/outputs/excerpt.hpp>
 
@@ -19,8 +19,7 @@ io::PointArray brought(const gale::detail::ExchangePlan& plan, const Ranks& rank
         Values all;
         std::vector<Value> from, to;
         gale::detail::together(ranks, [&] {
-          reserve(all, count * width);
-          all.resize(count * width);
+          all = gale::detail::unwritten<Value>(count * width);
           if (width == 1) return;
           from.resize(values.size() / width);
           to.resize(count);

@@ -50,6 +50,19 @@ Array<Id, WorkerMemory> doubled(Offset n) {
 
 }  // namespace
 
+TEST(Unwritten, vectors_have_their_entries_and_grow) {
+  for (const std::size_t count : {std::size_t(0), std::size_t(1), std::size_t(100000)}) {
+    EXPECT_EQ(detail::zeros<Id>(count), std::vector<Id>(count, 0));
+    auto all = detail::unwritten<Id>(count);
+    ASSERT_EQ(all.size(), count);
+    std::fill(all.begin(), all.end(), 7);
+    all.push_back(8);
+    EXPECT_EQ(all.size(), count + 1);
+    EXPECT_EQ(all.back(), 8);
+    EXPECT_EQ(all.front(), count == 0 ? 8 : 7);
+  }
+}
+
 TEST(ParallelFor, calls_the_body_once_for_each_index) {
   for (const Offset n : sizes) {
     const auto values = to_vector(doubled(n));

@@ -63,6 +63,9 @@ TEST(Stop, ends_every_kind_of_loop) {
                [&](const auto& ask, int) { reduce_sum("test", space, n, [&](Offset) { return ask(), 1; }); });
   expect_stops("in_turns",
                [&](const auto& ask, int threads) { in_turns(threads, n, [&](int, std::int64_t) { ask(); }); });
+  expect_stops("in_turns_with_more", [&](const auto& ask, int threads) {
+    detail::in_turns_with_more(threads, std::vector<int>(n), [&](int, int, const auto&) { ask(); });
+  });
   expect_stops("sweep", [&](const auto& ask, int threads) {
     SweepOptions options;
     options.threads = threads;

@@ -77,6 +77,35 @@ TEST(OnThreads, lets_bodies_loop_on_their_own_thread) {
   EXPECT_EQ(wrong, 0);
 }
 
+TEST(InTurnsWithMore, calls_each_item_once_and_what_it_adds) {
+  for (const int count : {1, 2, 16}) {
+    std::vector<std::atomic<int>> calls(127);
+    detail::in_turns_with_more(count, std::vector<int>{0}, [&](int thread, int item, const auto& add) {
+      EXPECT_LT(thread, count);
+      ++calls.at(item);
+      for (const int more : {2 * item + 1, 2 * item + 2}) {
+        if (more < 127) add(more);
+      }
+    });
+    for (const auto& number : calls) EXPECT_EQ(number, 1) << "of " << count;
+  }
+}
+
+TEST(InTurnsWithMore, ends_where_a_body_throws) {
+  for (const int count : {1, 4}) {
+    std::atomic<int> calls{0};
+    const auto run = [&] {
+      detail::in_turns_with_more(count, std::vector<int>{0}, [&](int, int item, const auto& add) {
+        ++calls;
+        add(item + 1);
+        if (item == 9) throw std::runtime_error("item 9");
+      });
+    };
+    EXPECT_THROW(run(), std::runtime_error);
+    EXPECT_EQ(calls, 10);
+  }
+}
+
 TEST(HostThreads, are_as_many_as_were_set_on_any_thread) {
   const Threads five(5);
   EXPECT_EQ(host_threads(), 5);

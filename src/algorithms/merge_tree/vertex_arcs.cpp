@@ -53,7 +53,7 @@ std::vector<std::vector<Id>> arcs_of_vertices(const Space& space, const Mesh& me
   find.count = static_cast<int>(trees.size());
   std::vector<std::vector<Id>> found(trees.size());
   const auto make_room = [&] {
-    for (std::vector<Id>& arcs : found) arcs = zeros<Id>(mesh.vertices());
+    for (std::vector<Id>& arcs : found) arcs = unwritten<Id>(mesh.vertices());
   };
   if constexpr (!is_device<Space>) make_room();
   for (int tree = 0; tree < find.count; ++tree) {

@@ -70,60 +70,54 @@ class FallOnRanks {
     explicit Fall(const EdgeChain& empty) : chain(empty) {}
 
     EdgeChain chain;
-    std::vector<ColumnEdge> met;  ///< columns that are to fall, and the edges that they have met
     std::vector<ColumnEdge> fallen;
     std::vector<SentEdge> exits;
   };
 
-  /// Lets some columns fall, and those whose edges they meet. begin(chain, i) adds the i-th one's edges, and returns
-  /// its number.
+  /// Lets some columns fall, and those whose edges they meet, each of these from when it is met. begin(chain, i) adds
+  /// the i-th one's edges, and returns its number.
   template <class Begin>
   void fall_all(std::size_t count, const Begin& begin) {
     if (count == 0) return;
     const EdgeChain empty(gradient_);  // brings the gradient to the host, on all threads
     std::vector<std::unique_ptr<Fall>> falls(threads_);
-    const auto fall = [&](std::size_t columns, const auto& begin_one) {
-      in_turns(threads_, static_cast<std::int64_t>(columns), [&](int thread, std::int64_t i) {
-        if (!falls[thread]) falls[thread] = std::make_unique<Fall>(empty);
-        Fall& here = *falls[thread];
-        const Id column = begin_one(here.chain, i);
-        fall_to_end(column, here);
-      });
-    };
-    fall(count, begin);
-    for (std::vector<ColumnEdge> met = taken(falls, &Fall::met); !met.empty(); met = taken(falls, &Fall::met)) {
-      fall(met.size(), [&](EdgeChain& chain, std::int64_t i) {
-        chain.add(columns_.owner(met[i].edge)->rim);
-        return met[i].column;
-      });
-    }
-    const auto fallen = taken(falls, &Fall::fallen);
-    fallen_.insert(fallen_.end(), fallen.begin(), fallen.end());
-    const auto exits = taken(falls, &Fall::exits);
-    exits_.insert(exits_.end(), exits.begin(), exits.end());
+    std::vector<ColumnEdge> columns(count);  // the first ones by their places, without an edge that they have met
+    for (std::size_t i = 0; i < count; ++i) columns[i] = {static_cast<Id>(i), no_id};
+    in_turns_with_more(threads_, columns, [&](int thread, ColumnEdge column, const auto& add) {
+      if (!falls[thread]) falls[thread] = std::make_unique<Fall>(empty);
+      Fall& here = *falls[thread];
+      if (column.edge == no_id) {
+        column.column = begin(here.chain, column.column);
+      } else {
+        here.chain.add(columns_.owner(column.edge)->rim);
+      }
+      fall_to_end(column.column, here, add);
+    });
+    append_taken(falls, &Fall::fallen, fallen_);
+    append_taken(falls, &Fall::exits, exits_);
   }
 
-  /// Takes what all threads have of something.
+  /// Appends what all threads have of something.
   template <class T>
-  static std::vector<T> taken(const std::vector<std::unique_ptr<Fall>>& falls, std::vector<T> Fall::*member) {
-    std::vector<T> all;
+  static void append_taken(const std::vector<std::unique_ptr<Fall>>& falls, std::vector<T> Fall::*member,
+                           std::vector<T>& all) {
     for (const auto& fall : falls) {
       if (!fall) continue;
-      auto& some = (*fall).*member;
+      const auto& some = (*fall).*member;
       all.insert(all.end(), some.begin(), some.end());
-      some.clear();
     }
-    return all;
   }
 
-  void fall_to_end(Id column, Fall& here) {
+  /// Lets a column fall, and calls on_met with others that it meets.
+  template <class OnMet>
+  void fall_to_end(Id column, Fall& here, const OnMet& on_met) {
     const OtherIds input = mesh_.vertices_in_input();
     here.chain.fall_to_end(
         [&](Id high, Id low) {
           const Id edge = places_.of_edge(high, low);
           here.fallen.push_back({column, edge});
           const Id other = atomic_read(&number_[edge]) == no_id ? no_id : atomic_exchange(&number_[edge], no_id);
-          if (other != no_id) here.met.push_back({other, edge});
+          if (other != no_id) on_met(ColumnEdge{other, edge});
         },
         [&](Id high, Id low) {
           here.exits.push_back({mesh_.vertex_id(input[high]), mesh_.vertex_id(input[low]), column});

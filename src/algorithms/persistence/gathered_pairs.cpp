@@ -89,8 +89,8 @@ class PairsOnRanks {
         const SimplicesOfAll& all = all_[d].emplace(std::move(received));
         std::vector<Id>& by_rank = filtration_.by_rank[d];
         std::vector<Id>& rank = filtration_.rank[d];
-        by_rank = zeros<Id>(all.from_rank.size());
-        rank = zeros<Id>(all.from_rank.size());
+        by_rank = unwritten<Id>(all.from_rank.size());
+        rank = unwritten<Id>(all.from_rank.size());
         parallel_for("GALE::filtration_of_all", HostExecutionSpace(), by_rank.size(), [&](Offset i) {
           by_rank[i] = all.place.entries(all.from_rank[i]);
           rank[by_rank[i]] = static_cast<Id>(i);

@@ -81,7 +81,7 @@ std::vector<SentSimplex> highest_to_send(const DiscreteGradient& gradient) {
 
 SimplicesOfAll::SimplicesOfAll(EntriesByRank<SentSimplex> from) : sent(std::move(from)), place{{}, sent.begin} {
   const Offset count = sent.count();
-  auto order = zeros<Id>(count);
+  auto order = unwritten<Id>(count);
   const auto for_each = [&](const auto& body) {
     parallel_for("GALE::places_of_all", HostExecutionSpace(), count, body);
   };
