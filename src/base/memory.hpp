@@ -53,7 +53,7 @@ class UnwrittenVector : public std::vector<T> {
   UnwrittenVector(std::size_t count, int threads) {
     reserve(*this, count);
     expect_writes(this->data(), count * sizeof(T), threads);
-#ifdef __GLIBCXX__
+#if defined(__GLIBCXX__) && !defined(_GLIBCXX_DEBUG) && !defined(_GLIBCXX_SANITIZE_VECTOR)
     this->_M_impl._M_finish = this->_M_impl._M_start + count;
 #else
     this->resize(count);
