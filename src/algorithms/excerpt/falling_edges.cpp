@@ -9,6 +9,9 @@ namespace {
 /// Edges that a thread comes to before it looks whether there is room for more: a first one, and two sides.
 constexpr Offset most_at_once = 3;
 
+/// Steps that a thread goes on in one launch: some ways are long and wind, and what they leave open waits meanwhile.
+constexpr int most_steps = 16;
+
 /// What stands for no edge to go on from.
 KOKKOS_FUNCTION FallenEdge no_edge() { return {no_id, no_id, no_id}; }
 
@@ -46,7 +49,7 @@ struct FallFrom {
   /// Goes on from an edge, a first step in any case.
   KOKKOS_FUNCTION void go_on(FallenEdge edge) const {
     for (int step = 0; edge.high != no_id; ++step) {
-      if (step > 0 && !has_room()) return leave_open(edge);
+      if (step == most_steps || (step > 0 && !has_room())) return leave_open(edge);
       const FallenEdge sides[] = {side(edge.high, edge.third), side(edge.low, edge.third)};
       const FallenEdge one = come_to(sides[0]), other = come_to(sides[1]);
       const bool has_one = one.high != no_id;
@@ -107,7 +110,7 @@ std::vector<std::array<Id, 2>> FallingEdges::fall(const std::vector<std::array<I
   const Offset left_before = counts_.left, count = static_cast<Offset>(edges.size());
   const auto ends = in_memory<WorkerMemory>(Array<const Id, HostMemory>(edges[0].data(), 2 * edges.size()));
   Offset first = counts_.open;
-  reserve(most_at_once * count);
+  reserve((first == 0 ? 16 : most_at_once) * count);  // most of all lie behind the first ones
   parallel_for("GALE::begin_edges", space_, count, BeginEdges{{edges_, keys_, found_, count}, ends});
   take_counts();
   while (first < counts_.open) {

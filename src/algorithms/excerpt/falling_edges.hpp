@@ -29,9 +29,8 @@ struct FallenEdges {
 };
 
 /// Edges that fall along a gradient that kernels found: from one that is paired with a triangle to the other edges of
-/// that triangle, and so on. Each is passed once. A thread goes down one way as long as there is room, and leaves open
-/// where ways part: these are the next launch's, so that there are as many launches as ways part one after the other.
-/// Takes 50 to 120 bytes an edge in the workers' memory. Refers to the gradient.
+/// that triangle, and so on. Each is passed once. A thread goes some steps down one way and leaves open where ways
+/// part: these are the next launch's. Takes 50 to 120 bytes an edge in the workers' memory. Refers to the gradient.
 class FallingEdges {
  public:
   /// Throws OutOfMemory.

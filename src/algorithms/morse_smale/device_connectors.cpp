@@ -77,8 +77,8 @@ void append_paths(const WorkerSpace& space, const GrownWalls& walls, const std::
   append(paths.cells, cells);
 }
 
-/// Finds connectors in the descending walls of critical triangles, of which some grow side by side. Takes as many
-/// launches as ways along walls part one after the other; time and memory grow with all walls together.
+/// Finds connectors in the descending walls of critical triangles, of which some grow side by side. Time and
+/// memory grow with all walls together.
 class Connectors {
  public:
   Connectors(const WallRows& rows, const std::vector<TriangleVertices>& critical, const CriticalPlaces& places,
@@ -128,7 +128,7 @@ class Connectors {
     found_.open = {};
     found_.edges = {};
     counts_ = {count, 0, count};
-    const Offset room = std::max(8 * Offset(count), Offset(1) << 16);
+    const Offset room = std::max(16 * Offset(count), Offset(1) << 16);
     found_.triangles = allocate<InWorkers<WallTriangle>>("GALE::wall_triangles", room);
     found_.rims = allocate<InWorkers<WallRim>>("GALE::wall_rims", room);
     found_.open = allocate<InWorkers<std::uint32_t>>("GALE::open_triangles", room);

@@ -64,8 +64,9 @@ KOKKOS_FUNCTION void for_each_side(const WallRows& rows, const WallTriangle& tri
   }
 }
 
-/// Grows walls from an open triangle, one thread of a launch: on along one way as long as there is room; where ways
-/// part the others are left open.
+/// Grows walls from an open triangle, one thread of a launch: some steps on along one way, as long as there is
+/// room. Where ways part, and where it ends, triangles are left open: some ways are long and wind, and what they leave
+/// open waits meanwhile.
 struct GrowWalls {
   WallRows rows;
   WallSink sink;
@@ -74,12 +75,13 @@ struct GrowWalls {
   Offset most_triangles;  ///< to come to while others may be left open
 
   static constexpr Offset most_sides = 3;
+  static constexpr int most_steps = 16;
 
   KOKKOS_FUNCTION void operator()(Offset i) const {
     std::uint32_t number = sink.open(first + i);
     WallTriangle triangle = sink.triangles(number);
     for (int step = 0; number != none; ++step) {
-      if (step > 0 && !has_room()) return leave_open(number);
+      if (step == most_steps || (step > 0 && !has_room())) return leave_open(number);
       std::uint32_t next = none;
       WallTriangle next_triangle{};
       for_each_side(rows, triangle, number < static_cast<std::uint32_t>(walls), [&](const WallSide& side) {
