@@ -59,7 +59,7 @@ void OwnOctree::begin(int capacity) {
         const ThreadLimit limit(few);
         return octree_of(points, capacity);
       });
-  others_.emplace(all - few);
+  others_.emplace(std::max(all - few, 1));
 }
 
 Segmentation OwnOctree::get(const HostPoints& owned, int capacity) {
