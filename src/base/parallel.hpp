@@ -124,14 +124,14 @@ Array<T, HostMemory> array_of(const std::string& label, const std::vector<T>& en
   return all;
 }
 
-/// So many entries that are to be written from end to end, in memory that the system gives on all host threads: where
-/// nobody wrote before, that takes longer than to write them.
+/// Makes room for so many entries, which are to be written from end to end, in memory that the system gives on all host
+/// threads: where nobody wrote before, that takes longer than to write them.
 template <class T>
 std::vector<T> unwritten(std::size_t count) {
   return UnwrittenVector<T>(count, threads_for(static_cast<Offset>(count)));
 }
 
-/// So many zeros, likewise.
+/// Makes so many zeros, likewise.
 template <class T>
 std::vector<T> zeros(std::size_t count) {
   auto all = unwritten<T>(count);

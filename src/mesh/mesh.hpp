@@ -210,8 +210,10 @@ class GALE_EXPORT Mesh {
   template <class Memory = HostMemory>
   OtherIds cells_in_input() const;
 
-  /// Input ids of some vertices or cells, read where all are known: none of the others' are copied.
+  /// Input ids of some vertices, read where all are known: none of the others' are copied.
   std::vector<Id> input_of_vertices(const std::vector<Id>& vertices) const;
+
+  /// Input ids of some cells, likewise.
   std::vector<Id> input_of_cells(const std::vector<Id>& cells) const;
 
   /// The vertices of cells. Valid as long as the mesh or a copy of it.
