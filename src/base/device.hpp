@@ -31,7 +31,8 @@ namespace detail {
 bool lock_pages(void* memory, std::size_t bytes);
 void unlock_pages(void* memory);
 
-/// One thread's way to the device and back. A stream alone: an instance of Kokkos' takes ten times as long to make.
+/// Copies to the device and back, one after the other: a stream alone, as an instance of Kokkos' takes ten times as
+/// long to make.
 class CopyStream {
  public:
   CopyStream();

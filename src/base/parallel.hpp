@@ -124,7 +124,7 @@ Array<T, HostMemory> array_of(const std::string& label, const std::vector<T>& en
   return all;
 }
 
-/// Makes room for so many entries, which are to be written from end to end, in memory that the system gives on all host
+/// Makes room for so many entries, to be written from end to end, in memory that the system gives on all host
 /// threads: where nobody wrote before, that takes longer than to write them.
 template <class T>
 std::vector<T> unwritten(std::size_t count) {

@@ -123,7 +123,7 @@ void side_by_side(const Work&... work) {
 
 /// Calls `body(thread, item, add)` for each of some items, and for each that a body gives to add(item), on `count`
 /// threads, in the order in which they were given: one that waits for an item gets it at once. Exceptions as in
-/// `in_turns`.
+/// `in_turns`: after one, what is added is left.
 template <class Item, class Body>
 void in_turns_with_more(int count, const std::vector<Item>& items, const Body& body) {
   if (items.empty()) return;
@@ -131,8 +131,10 @@ void in_turns_with_more(int count, const std::vector<Item>& items, const Body& b
   std::condition_variable changed;
   std::deque<Item> left(items.begin(), items.end());
   int busy = 0;  // threads that may still add some
+  bool has_failed = false;
   const auto add = [&](const Item& item) {
     const std::lock_guard<std::mutex> lock(mutex);
+    if (has_failed) return;
     left.push_back(item);
     changed.notify_one();
   };
@@ -150,6 +152,7 @@ void in_turns_with_more(int count, const std::vector<Item>& items, const Body& b
         body(thread, item, add);
       } catch (...) {
         lock.lock();
+        has_failed = true;
         left.clear();
         --busy;
         changed.notify_all();

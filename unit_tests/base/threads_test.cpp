@@ -97,12 +97,22 @@ TEST(InTurnsWithMore, ends_where_a_body_throws) {
     const auto run = [&] {
       detail::in_turns_with_more(count, std::vector<int>{0}, [&](int, int item, const auto& add) {
         ++calls;
-        add(item + 1);
         if (item == 9) throw std::runtime_error("item 9");
+        add(item + 1);
       });
     };
     EXPECT_THROW(run(), std::runtime_error);
     EXPECT_EQ(calls, 10);
+  }
+}
+
+TEST(InTurnsWithMore, begins_nothing_that_is_added_after_a_body_threw) {
+  for (int run = 0; run < 200; ++run) {
+    const auto add_for_ever = [](int, int item, const auto& add) {
+      add(item + 1);
+      if (item == 9) throw std::runtime_error("item 9");
+    };
+    EXPECT_THROW(detail::in_turns_with_more(4, std::vector<int>{0}, add_for_ever), std::runtime_error);
   }
 }
 

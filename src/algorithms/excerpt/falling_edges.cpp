@@ -1,4 +1,5 @@
 #include <gale/algorithms/excerpt/falling_edges.hpp>
+#include <gale/base/error.hpp>
 #include <gale/base/stop.hpp>
 #include <gale/base/transfer.hpp>
 
@@ -9,7 +10,7 @@ namespace {
 /// Edges that a thread comes to before it looks whether there is room for more: a first one, and two sides.
 constexpr Offset most_at_once = 3;
 
-/// Steps that a thread goes on in one launch: some ways are long and wind, and what they leave open waits meanwhile.
+/// Steps that a thread goes on in one launch, so that edges that were left open don't wait for the longest way.
 constexpr int most_steps = 16;
 
 /// What stands for no edge to go on from.
@@ -110,7 +111,7 @@ std::vector<std::array<Id, 2>> FallingEdges::fall(const std::vector<std::array<I
   const Offset left_before = counts_.left, count = static_cast<Offset>(edges.size());
   const auto ends = in_memory<WorkerMemory>(Array<const Id, HostMemory>(edges[0].data(), 2 * edges.size()));
   Offset first = counts_.open;
-  reserve((first == 0 ? 16 : most_at_once) * count);  // most of all lie behind the first ones
+  reserve_first(count);
   parallel_for("GALE::begin_edges", space_, count, BeginEdges{{edges_, keys_, found_, count}, ends});
   take_counts();
   while (first < counts_.open) {
@@ -141,6 +142,16 @@ void FallingEdges::reserve(Offset more) {
   make_room(space_, "GALE::left_edges", found_.left, counts_.left, counts_.left + more);
   make_room(space_, "GALE::open_edges", found_.open, counts_.open, counts_.open + more);
   make_room(space_, found_.known, counts_.passed + counts_.left + more);
+}
+
+/// Makes room for so many edges to begin with, and for what most come to where there is room for that.
+void FallingEdges::reserve_first(Offset count) {
+  constexpr Offset behind_each = 16;
+  try {
+    reserve((counts_.passed == 0 ? behind_each : most_at_once) * count);
+  } catch (const OutOfMemory&) {
+    reserve(most_at_once * count);
+  }
 }
 
 /// Learns how many kernels have found.

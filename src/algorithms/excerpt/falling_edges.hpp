@@ -15,7 +15,7 @@ struct FallenEdge {
 };
 
 /// How many edges kernels have found: those that were passed, those that are other ranks' to follow, and of those that
-/// were passed the ones that others fall from, but no thread went on from yet.
+/// were passed the ones that threads have left open, for launches to go on from in this order.
 struct FallenCounts {
   Offset passed = 0, left = 0, open = 0;
 };
@@ -44,6 +44,7 @@ class FallingEdges {
   std::vector<std::array<Id, 3>> passed() const;
 
  private:
+  void reserve_first(Offset count);
   void reserve(Offset more);
   void take_counts();
 

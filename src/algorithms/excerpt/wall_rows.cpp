@@ -34,10 +34,10 @@ WallRows wall_rows(const DiscreteGradient& gradient) {
 }
 
 WiderRows::WiderRows(const WiderGradient& wider)
-    : keys_(*wider.simplices()),
-      keys_there_(keys_),
-      rows_{EdgesInKernels(wider.part()),
-            told_there(wider.told_edges(), static_cast<Offset>(wider.part().store().pair_words().size())),
-            keys_there_.keys(), keys_there_.names()} {}
+    : keys_(*wider.simplices()), keys_there_(keys_), rows_(wall_rows(wider.part())) {
+  rows_.told = told_there(wider.told_edges(), rows_.own.count);
+  rows_.keys = keys_there_.keys();
+  rows_.names = keys_there_.names();
+}
 
 }  // namespace gale::detail

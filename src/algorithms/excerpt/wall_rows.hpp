@@ -12,7 +12,7 @@ namespace gale::detail {
 struct ToldEdges {
   KeyTable edges;  ///< by their ends, the higher one first
   Array<Id, WorkerMemory> thirds;
-  Offset first_number = 0;
+  Offset first_number = 0;  ///< behind those of own edges
 
   KOKKOS_FUNCTION PairedEdge operator()(Id high, Id low) const {
     const std::uint64_t place = edges.find(pair_key(high, low));
@@ -50,7 +50,7 @@ class WiderRows {
  private:
   const WiderKeys keys_;
   const WiderKeysIn<WorkerMemory> keys_there_;
-  const WallRows rows_;
+  WallRows rows_;
 };
 
 }  // namespace gale::detail

@@ -11,8 +11,8 @@ struct PairedEdge {
   Id third;       ///< of the triangle that it is paired with, or why there is none: edge_is_critical, edge_has_vertex
 };
 
-/// The edges of a gradient that kernels found, for kernels: those whose higher ends this rank owns. Of a grid they are
-/// read from codes, one load each, where there is room for these. Owns nothing.
+/// The edges of a gradient that kernels found, for kernels: those whose higher ends this rank owns. Those of a
+/// grid that has all its cubes are read from codes, one load each, where there is room for these. Owns nothing.
 struct EdgesInKernels {
   const Id* pair_words;
   const Offset* pairs_begin;
@@ -30,7 +30,7 @@ struct EdgesInKernels {
         count(static_cast<Offset>(gradient.store().pair_words().size())) {
     if (!gradient.store().has_codes()) return;
     try {
-      codes = gradient.store().codes().in<WorkerMemory>().data();
+      codes = gradient.store().codes(true).in<WorkerMemory>().data();
       steps = GridSteps(gradient.mesh().grid()->in<WorkerMemory>());
       count = grid_directions * Offset(gradient.mesh().vertices());
     } catch (const OutOfMemory&) {
@@ -44,7 +44,7 @@ struct EdgesInKernels {
   }
 
  private:
-  /// Its number is the place of its word.
+  /// Reads it from the row of its higher end: its number is the place of the word.
   KOKKOS_FUNCTION PairedEdge in_row(Id high, Id low) const {
     const EdgePairRow row(const_cast<Id*>(pair_words) + pairs_begin[high]);  // nobody writes to it
     const Id place = row.find(low), third = row.third(place);
@@ -52,6 +52,7 @@ struct EdgesInKernels {
     return {pairs_begin[high] + 1 + place, third == no_id ? why_none : third};
   }
 
+  /// Reads it from the code of its higher end: of each vertex there are as many numbers as directions.
   KOKKOS_FUNCTION PairedEdge in_code(Id high, Id low) const {
     const PairCode code(codes[high]);
     const int direction = steps.direction(low - high), to = code[direction];

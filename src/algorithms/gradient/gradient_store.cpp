@@ -19,7 +19,7 @@ std::vector<T> gathered(std::vector<ConsumerFound>& parts, HostList<T> FoundSimp
 /// Sorts entries by their keys, which are unique.
 template <class T, class Key>
 void sort_by(const std::vector<Key>& keys, std::vector<T>& all) {
-  auto keyed = zeros<std::pair<Key, T>>(all.size());
+  auto keyed = unwritten<std::pair<Key, T>>(all.size());
   parallel_for("GALE::critical_keys", HostExecutionSpace(), all.size(), [&](Offset i) {
     keyed[i] = {keys[i], all[i]};
   });
@@ -35,7 +35,7 @@ std::vector<std::array<Id, N>> written_simplices(const Mesh& mesh, const std::ve
   reserve(vertices, N * simplices.size());
   for (const auto& simplex : simplices) vertices.insert(vertices.end(), simplex.begin(), simplex.end());
   const std::vector<Id> input = mesh.input_of_vertices(vertices);
-  auto all = zeros<std::array<Id, N>>(simplices.size());
+  auto all = unwritten<std::array<Id, N>>(simplices.size());
   parallel_for("GALE::written_simplices", HostExecutionSpace(), all.size(), [&](Offset i) {
     std::copy_n(&input[N * i], N, all[i].begin());
     all[i] = ascending(all[i]);
@@ -46,7 +46,7 @@ std::vector<std::array<Id, N>> written_simplices(const Mesh& mesh, const std::ve
 /// Critical facets of cells, triangles or edges, as users write them, and cells.
 template <std::size_t N>
 std::vector<std::pair<std::array<Id, N>, Id>> written_stars(const Mesh& mesh, const std::vector<InStar>& stars) {
-  auto facets = zeros<std::array<Id, N>>(stars.size());
+  auto facets = unwritten<std::array<Id, N>>(stars.size());
   std::vector<Id> cells(stars.size());
   parallel_for("GALE::facets_in_stars", HostExecutionSpace(), stars.size(), [&](Offset i) {
     std::copy_n(stars[i].simplex.begin(), N, facets[i].begin());
@@ -54,7 +54,7 @@ std::vector<std::pair<std::array<Id, N>, Id>> written_stars(const Mesh& mesh, co
   });
   facets = written_simplices(mesh, facets);
   cells = mesh.input_of_cells(cells);
-  auto all = zeros<std::pair<std::array<Id, N>, Id>>(stars.size());
+  auto all = unwritten<std::pair<std::array<Id, N>, Id>>(stars.size());
   parallel_for("GALE::written_stars", HostExecutionSpace(), stars.size(), [&](Offset i) {
     all[i] = {facets[i], cells[i]};
   });
@@ -148,8 +148,9 @@ std::shared_ptr<GradientStore> GradientStore::on_host(const VertexOrder& order, 
   return store;
 }
 
-const Mirrored<std::uint64_t>& GradientStore::codes() const {
-  return codes_.get([this] {
+const Mirrored<std::uint64_t>& GradientStore::codes(bool for_kernels) const {
+  return codes_.get([&] {
+    if (for_kernels) return encoded_in(WorkerSpace(), *this);
     return in_worker_or_host_space(pair_words_.on_device(),
                                    [&](const auto& space) { return encoded_in(space, *this); });
   });

@@ -202,9 +202,10 @@ class GALE_EXPORT GradientStore {
   const Mirrored<Offset>& pairs_begin() const { return pairs_begin_; }
 
   /// Codes of all vertices (PairCode), which say the same of a grid that has all its cubes in a sixth of these words:
-  /// made when somebody first asks for them. Throws OutOfMemory; a later call tries again.
+  /// made when somebody first asks for them, and kept, which bytes() doesn't count. `for_kernels` alone they are made
+  /// where kernels run or not at all: throws OutOfMemory, and a later call tries again.
   bool has_codes() const { return is_from_kernels() && mesh.grid() != nullptr && mesh.grid()->is_whole(); }
-  const Mirrored<std::uint64_t>& codes() const;
+  const Mirrored<std::uint64_t>& codes(bool for_kernels = false) const;
 
   /// For DiscreteGradient, which looks them up often.
   mutable HostSuccessors host_successors;

@@ -32,7 +32,7 @@ class PairCode {
   std::uint64_t bits_ = ~std::uint64_t(0);
 };
 
-/// From a vertex of such a grid to its neighbours, by their directions.
+/// Steps from a vertex to its neighbours, by their directions, in a grid that has all its cubes.
 struct GridSteps {
   Id step[grid_directions];
 

@@ -139,7 +139,7 @@ class Connectors {
     space_.fence();
   }
 
-  /// Room for all that a launch adds at least.
+  /// Makes room for what a launch adds at least: one step of each thread. Throws OutOfMemory.
   void reserve(Offset more, Offset most_triangles) {
     const Offset most = std::min(most_triangles, WallTable::most_triangles - more);
     if (counts_.triangles > most) throw OutOfMemory("walls of more than " + std::to_string(most) + " triangles");
@@ -149,7 +149,7 @@ class Connectors {
     make_room(space_, found_.edges, counts_.triangles + counts_.rims + more);
   }
 
-  /// Sorts the rims, which come in no order, by wall and edge.
+  /// Sorts the rims, which come in no order, by wall and edge. Appends nothing if it throws OutOfMemory.
   void add_paths(Id first, const GrownWalls& walls) {
     const auto there = on_host(first_of(found_.rims, counts_.rims));
     using Keyed = std::pair<std::pair<Id, Id>, WallRim>;
@@ -161,12 +161,12 @@ class Connectors {
     parallel_sort("GALE::sort_rims", rims.begin(), rims.end(),
                   [](const Keyed& a, const Keyed& b) { return a.first < b.first; });
     std::vector<WallRim> sorted;
+    for (const auto& [key, rim] : rims) sorted.push_back(rim);
+    append_paths(space_, walls, sorted, paths);
     for (const auto& [key, rim] : rims) {
-      sorted.push_back(rim);
       paths.sources.push_back(key.second);
       paths.destinations.push_back(first + key.first);
     }
-    append_paths(space_, walls, sorted, paths);
   }
 
   const WorkerSpace space_{};

@@ -26,7 +26,8 @@ struct WallRim {
   Id high, low;
 };
 
-/// How many a kernel has found so far. Open are triangles whose sides no thread has crossed yet.
+/// How many kernels have found so far. Open are triangles that threads have left open, for launches to go on from in
+/// this order.
 struct WallCounts {
   Offset triangles = 0, rims = 0, open = 0;
 };
@@ -64,9 +65,9 @@ KOKKOS_FUNCTION void for_each_side(const WallRows& rows, const WallTriangle& tri
   }
 }
 
-/// Grows walls from an open triangle, one thread of a launch: some steps on along one way, as long as there is
-/// room. Where ways part, and where it ends, triangles are left open: some ways are long and wind, and what they leave
-/// open waits meanwhile.
+/// Grows walls from an open triangle, one thread of a launch: on along one way as long as there is room, but
+/// `most_steps` at most, so that triangles that were left open don't wait for the longest way. Where ways part, and
+/// where it ends, triangles are left open.
 struct GrowWalls {
   WallRows rows;
   WallSink sink;

@@ -93,7 +93,7 @@ SomeCells outer_cells(const MeshPart<Index>& part, const IdInterval& own) {
 template <class Write>
 SomeCells write_rows_to_device(Quad* rows, Offset count, const Write& write) {
   std::mutex mutex;
-  std::map<Offset, std::vector<Id>> by_first;  // of a chunk
+  std::map<Offset, std::vector<Id>> by_first;  // of a piece
   by_first[0];
   write_to_device(rows, static_cast<std::size_t>(count) * sizeof(Quad),
                   [&](char* to, std::size_t begin, std::size_t size) {

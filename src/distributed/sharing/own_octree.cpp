@@ -48,8 +48,8 @@ void OwnOctree::require_finite() const {
   });
 }
 
-/// On a thread of its own, by a quarter of this one's threads, which meanwhile does with the others: where each of a
-/// loop's threads has as much to do, all wait for one that shares its core.
+/// Runs on a thread of its own with a quarter of the threads. Until get() this one uses the others, as a loop waits for
+/// the slowest thread, which would be one that shares its core.
 void OwnOctree::begin(int capacity) {
   if (count_ == 0) return;
   const int all = host_threads(), few = std::max(all / 4, 1);
