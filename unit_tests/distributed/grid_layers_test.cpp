@@ -1,7 +1,11 @@
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <numeric>
 #include <random>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,6 +14,7 @@
 
 #include <gale/algorithms/critical_points.hpp>
 #include <gale/algorithms/discrete_gradient.hpp>
+#include <gale/algorithms/excerpt/wall_rows.hpp>
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/morse_smale.hpp>
 #include <gale/algorithms/persistence.hpp>
@@ -249,6 +254,55 @@ TEST(GridLayersOfRanks, have_the_separatrices_of_the_whole_grid_by_kernels) {
                            [](std::int64_t sum, const auto& line) { return sum + line.second; });
   };
   EXPECT_EQ(ranks.sum(count_of(found)), count_of(expected));
+}
+
+/// What kernels read as the numbers of edges.
+std::vector<Offset> numbers_in_kernels(const detail::WallRows& rows, const std::vector<std::array<Id, 2>>& edges) {
+  const auto ends = in_memory<WorkerMemory>(Array<const Id, HostMemory>(edges[0].data(), 2 * edges.size()));
+  const auto numbers = allocate<Array<Offset, WorkerMemory>>("test", edges.size());
+  parallel_for(
+      "test", WorkerSpace(), static_cast<Offset>(edges.size()),
+      KOKKOS_LAMBDA(Offset i) { numbers(i) = rows.edge(ends(2 * i), ends(2 * i + 1)).number; });
+  WorkerSpace().fence();
+  return vector_of(numbers);
+}
+
+TEST(GridLayersOfRanks, have_a_number_of_its_own_for_each_edge_that_walls_come_to) {
+  const Communicator ranks(MPI_COMM_WORLD, 1000);
+  const Grid grid({9, 8, 24});
+  const std::vector<float> all = ties(grid.vertices());
+  const GridLayers part = layers_of_rank(grid, ranks);
+  const DistributedMesh mesh(ranks, part);
+  const VertexOrder order(mesh, all.data() + first_vertex(grid, part.layers.first), mesh.owned_vertices().size());
+  const DiscreteGradient gradient = find_discrete_gradient(WorkerSpace(), order);
+  const CellReader cells = mesh.cell_reader();
+  const std::uint64_t* const keys = order.keys();
+  std::set<std::array<Id, 2>> own, others;
+  for (Id t = 0; t < mesh.cells(); ++t) {
+    const Quad corners = cells(t);
+    for (int i = 0; i < 4; ++i) {
+      for (int k = 0; k < 4; ++k) {
+        const std::array<Id, 2> edge{corners[i], corners[k]};
+        if (keys[edge[0]] > keys[edge[1]]) (mesh.owned_vertices().has(edge[0]) ? own : others).insert(edge);
+      }
+    }
+  }
+  detail::WayExits exits;
+  exits.edges.assign(others.begin(), others.end());
+  const detail::Reached reached = detail::reach_beyond(gradient, exits);
+  const detail::PathSimplices paths(gradient, detail::PathSimplices::Kind::rising_cells);
+  const detail::WiderGradient wider(gradient, std::make_shared<const detail::WiderSimplices>(gradient, paths, reached),
+                                    reached);
+  EXPECT_EQ(wider.told_edges().empty(), others.empty());
+  const detail::WiderRows there(wider);
+  std::vector<std::array<Id, 2>> edges(own.begin(), own.end());
+  for (const detail::ToldEdge& edge : wider.told_edges()) edges.push_back({edge.high, edge.low});
+  if (edges.empty()) return;
+  std::vector<Offset> numbers = numbers_in_kernels(there.rows(), edges);
+  std::sort(numbers.begin(), numbers.end());
+  EXPECT_EQ(std::adjacent_find(numbers.begin(), numbers.end()), numbers.end());
+  EXPECT_GE(numbers.front(), 0);
+  EXPECT_LT(numbers.back(), there.rows().edges());
 }
 
 TEST(GridLayersOfRanks, are_refused_where_they_do_not_fit) {
