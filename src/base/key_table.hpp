@@ -27,6 +27,9 @@ class KeyTable {
 
   KOKKOS_FUNCTION Offset places() const { return static_cast<Offset>(keys_.extent(0)); }
 
+  /// Are there enough places for so many keys, with some to spare that keep searches short?
+  KOKKOS_FUNCTION bool has_room(Offset keys) const { return 10 * keys <= 7 * places(); }
+
   /// The key at a place, or none.
   KOKKOS_FUNCTION std::uint64_t at(std::uint64_t place) const { return keys_(place); }
 
@@ -71,20 +74,26 @@ struct CopyKeys {
 /// Bits that numbers below `count`, 1 or more, take.
 inline int bits_for(Offset count) { return highest_bit(static_cast<std::uint64_t>(count - 1) | 1) + 1; }
 
-/// Has a table have room for `keys` keys in all, with places to spare. Throws OutOfMemory.
+/// Has a table have room for `keys` keys in all. Throws OutOfMemory.
 inline void make_room(const WorkerSpace& space, KeyTable& table, Offset keys) {
-  if (10 * keys <= 7 * table.places()) return;
+  if (table.has_room(keys)) return;
   const KeyTable larger(space, Offset(1) << bits_for(2 * keys));
   parallel_for("GALE::copy_keys", space, table.places(), CopyKeys{table, larger});
   space.fence();
   table = larger;
 }
 
+/// Does an array have so many entries?
+template <class T>
+KOKKOS_FUNCTION bool has_room(const Array<T, WorkerMemory>& array, Offset size) {
+  return size <= static_cast<Offset>(array.extent(0));
+}
+
 /// Has an array in the workers' memory have at least `size` entries, and keeps the first `used`: twice as many as it
 /// had where there is room for that. Throws OutOfMemory.
 template <class T>
 void make_room(const WorkerSpace& space, const char* label, Array<T, WorkerMemory>& array, Offset used, Offset size) {
-  if (size <= static_cast<Offset>(array.extent(0))) return;
+  if (has_room(array, size)) return;
   const auto larger = [&] {
     try {
       return allocate<Array<T, WorkerMemory>>(label, std::max(size, 2 * static_cast<Offset>(array.extent(0))));

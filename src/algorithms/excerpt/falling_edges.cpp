@@ -70,9 +70,8 @@ struct FallFrom {
     const FallenCounts& counts = found.counts(0);
     const Offset more = most_at_once * threads;
     const Offset passed = atomic_read(&counts.passed) + more, left = atomic_read(&counts.left) + more;
-    return passed <= static_cast<Offset>(found.passed.extent(0)) && left <= static_cast<Offset>(found.left.extent(0)) &&
-           atomic_read(&counts.open) + more <= static_cast<Offset>(found.open.extent(0)) &&
-           10 * (passed + left) <= 7 * found.known.places();
+    return detail::has_room(found.passed, passed) && detail::has_room(found.left, left) &&
+           detail::has_room(found.open, atomic_read(&counts.open) + more) && found.known.has_room(passed + left);
   }
 };
 

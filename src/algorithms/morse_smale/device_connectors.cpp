@@ -6,6 +6,7 @@
 #include <gale/algorithms/morse_smale/parts.hpp>
 #include <gale/base/error.hpp>
 #include <gale/base/parallel.hpp>
+#include <gale/base/stop.hpp>
 #include <gale/base/transfer.hpp>
 
 namespace gale::detail {
@@ -77,8 +78,8 @@ void append_paths(const WorkerSpace& space, const GrownWalls& walls, const std::
   append(paths.cells, cells);
 }
 
-/// Finds connectors in the descending walls of critical triangles, of which some grow side by side. Time and
-/// memory grow with all walls together.
+/// Finds connectors in the descending walls of critical triangles, of which some grow side by side. Time and memory
+/// grow with all walls together.
 class Connectors {
  public:
   Connectors(const WallRows& rows, const std::vector<TriangleVertices>& critical, const CriticalPlaces& places,
@@ -109,6 +110,7 @@ class Connectors {
   GrownWalls grow(Id first_wall, Id count, Offset most_triangles) {
     begin(critical_.data() + first_wall, count);
     for (Offset first = 0; first < counts_.open;) {
+      stop_if_asked();
       const Offset open = counts_.open - first;
       reserve(GrowWalls::most_sides * open, most_triangles);
       parallel_for("GALE::grow_walls", space_, open, GrowWalls{rows_, found_, count, first, open, most_triangles});
@@ -153,7 +155,7 @@ class Connectors {
   void add_paths(Id first, const GrownWalls& walls) {
     const auto there = on_host(first_of(found_.rims, counts_.rims));
     using Keyed = std::pair<std::pair<Id, Id>, WallRim>;
-    auto rims = zeros<Keyed>(counts_.rims);
+    auto rims = unwritten<Keyed>(counts_.rims);
     parallel_for("GALE::rims", HostExecutionSpace(), counts_.rims, [&](Offset i) {
       const WallRim& rim = there(i);
       rims[i] = {{rim.wall, places_.of_edge(rim.high, rim.low)}, rim};

@@ -118,10 +118,9 @@ struct GrowWalls {
     const WallCounts& counts = sink.counts(0);
     const Offset more = most_sides * threads;
     const Offset triangles = atomic_read(&counts.triangles) + more, rims = atomic_read(&counts.rims) + more;
-    return triangles <= most_triangles && triangles <= static_cast<Offset>(sink.triangles.extent(0)) &&
-           rims <= static_cast<Offset>(sink.rims.extent(0)) &&
-           atomic_read(&counts.open) + more <= static_cast<Offset>(sink.open.extent(0)) &&
-           10 * (triangles + rims) <= 7 * sink.edges.places();
+    return triangles <= most_triangles && detail::has_room(sink.triangles, triangles) &&
+           detail::has_room(sink.rims, rims) && detail::has_room(sink.open, atomic_read(&counts.open) + more) &&
+           sink.edges.has_room(triangles + rims);
   }
 };
 
