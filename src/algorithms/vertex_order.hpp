@@ -74,6 +74,9 @@ class GALE_EXPORT VertexOrder {
     return all_.keys.in<Memory>();
   }
 
+  /// Begins to bring the keys to the host, for algorithms that will ask for them there: keys() waits for that then.
+  void bring_keys_to_host() const { all_.keys.bring_to_host(); }
+
   /// The keys of some vertices, by GALE's ids, read in the memory where all keys were made. For GALE's own algorithms.
   std::vector<std::uint64_t> keys_of(const std::vector<Id>& vertices) const;
 

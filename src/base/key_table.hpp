@@ -10,6 +10,9 @@
 
 namespace gale::detail {
 
+/// Bits that numbers below `count`, 1 or more, take.
+inline int bits_for(Offset count) { return highest_bit(static_cast<std::uint64_t>(count - 1) | 1) + 1; }
+
 /// Different 64-bit keys, any but the greatest one, that kernels insert: a hash table in the workers' memory, which has
 /// to have more places than keys. Copies share it.
 class KeyTable {
@@ -27,8 +30,11 @@ class KeyTable {
 
   KOKKOS_FUNCTION Offset places() const { return static_cast<Offset>(keys_.extent(0)); }
 
-  /// Are there enough places for so many keys, with some to spare that keep searches short?
-  KOKKOS_FUNCTION bool has_room(Offset keys) const { return 10 * keys <= 7 * places(); }
+  /// So many keys leave some places to spare, which keeps searches short.
+  Offset room() const { return 7 * (places() / 10); }
+
+  /// A power of two that has room for so many keys.
+  static Offset places_for(Offset keys) { return Offset(1) << bits_for(2 * keys); }
 
   /// The key at a place, or none.
   KOKKOS_FUNCTION std::uint64_t at(std::uint64_t place) const { return keys_(place); }
@@ -71,29 +77,20 @@ struct CopyKeys {
   }
 };
 
-/// Bits that numbers below `count`, 1 or more, take.
-inline int bits_for(Offset count) { return highest_bit(static_cast<std::uint64_t>(count - 1) | 1) + 1; }
-
 /// Has a table have room for `keys` keys in all. Throws OutOfMemory.
 inline void make_room(const WorkerSpace& space, KeyTable& table, Offset keys) {
-  if (table.has_room(keys)) return;
-  const KeyTable larger(space, Offset(1) << bits_for(2 * keys));
+  if (keys <= table.room()) return;
+  const KeyTable larger(space, KeyTable::places_for(keys));
   parallel_for("GALE::copy_keys", space, table.places(), CopyKeys{table, larger});
   space.fence();
   table = larger;
-}
-
-/// Does an array have so many entries?
-template <class T>
-KOKKOS_FUNCTION bool has_room(const Array<T, WorkerMemory>& array, Offset size) {
-  return size <= static_cast<Offset>(array.extent(0));
 }
 
 /// Has an array in the workers' memory have at least `size` entries, and keeps the first `used`: twice as many as it
 /// had where there is room for that. Throws OutOfMemory.
 template <class T>
 void make_room(const WorkerSpace& space, const char* label, Array<T, WorkerMemory>& array, Offset used, Offset size) {
-  if (has_room(array, size)) return;
+  if (size <= static_cast<Offset>(array.extent(0))) return;
   const auto larger = [&] {
     try {
       return allocate<Array<T, WorkerMemory>>(label, std::max(size, 2 * static_cast<Offset>(array.extent(0))));
@@ -101,7 +98,7 @@ void make_room(const WorkerSpace& space, const char* label, Array<T, WorkerMemor
       return allocate<Array<T, WorkerMemory>>(label, size);
     }
   }();
-  Kokkos::deep_copy(space, first_of(larger, used), first_of(array, used));
+  if (used > 0) Kokkos::deep_copy(space, first_of(larger, used), first_of(array, used));
   space.fence();
   array = larger;
 }

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <memory>
 #include <mutex>
+#include <thread>
 #include <type_traits>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include <gale/base/memory.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/stop.hpp>
+#include <gale/base/threads.hpp>
 #include <gale/base/transfer.hpp>
 
 namespace gale {
@@ -61,6 +63,7 @@ class OneArray {
   const Array<const T, Memory>& in() const {
     return array_;
   }
+  void bring_to_host() const {}
   bool on_device() const { return false; }
   std::size_t size() const { return array_.extent(0); }
 
@@ -92,6 +95,7 @@ class TwoArrays {
       return arrays_->host;
     }
   }
+  void bring_to_host() const { arrays_->bring_to_host(); }
   bool on_device() const { return arrays_->on_device; }
   std::size_t size() const { return on_device() ? arrays_->worker.extent(0) : arrays_->host.extent(0); }
 
@@ -100,7 +104,12 @@ class TwoArrays {
     Array<const T, WorkerMemory> worker;
     Array<const T, HostMemory> host;
     bool on_device = false;  ///< where it was made, and is complete from the beginning
-    Once copied;
+    Once copied, begun;
+    std::thread bringing;
+
+    ~Arrays() {
+      if (bringing.joinable()) bringing.join();
+    }
 
     void copy() {
       copied([this] {
@@ -110,6 +119,29 @@ class TwoArrays {
           worker = on_worker(host);
         }
       });
+    }
+
+    void bring_to_host() {
+      if (!on_device) return;
+      begun([this] {
+        try {
+          bringing = start_thread([this] { copy_meanwhile(); });
+        } catch (const Error&) {  // there are no more threads: who asks for the copy makes it
+        }
+      });
+    }
+
+    void copy_meanwhile() {
+      const ThreadLimit others_have_work((host_threads() + 1) / 2);
+      try {
+        copied([this] {
+          const auto there = allocate<Array<T, HostMemory>>(worker.label(), worker.extent(0));
+          copy_what_is_made(there.data(), worker.data(), worker.extent(0) * sizeof(T));
+          host = there;
+        });
+      } catch (const Error&) {
+        // Who asks for the copy tries again, and hears of it.
+      }
     }
   };
 
@@ -141,6 +173,10 @@ class Mirrored {
   const Array<const T, Memory>& in() const {
     return arrays_.template in<Memory>();
   }
+
+  /// Begins to copy it to the host, on a thread of its own, for those who will ask for it there soon: they wait for that
+  /// then. To be called when what made it is done.
+  void bring_to_host() const { arrays_.bring_to_host(); }
 
   /// Whether it was made in a device's memory.
   bool on_device() const { return arrays_.on_device(); }

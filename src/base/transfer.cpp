@@ -1,8 +1,11 @@
 #include <sys/mman.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <condition_variable>
 #include <cstring>
+#include <deque>
 #include <mutex>
 #include <new>
 #include <string>
@@ -54,25 +57,31 @@ void touch(void* memory, std::size_t size) {
           }};
 }
 
-/// A thread writes one half of its chunk while the other travels. Halves fit a core's cache, so that what is written
-/// costs no bandwidth of the host's memory.
-constexpr std::size_t half_bytes = std::size_t(1) << 20, chunk_bytes = 2 * half_bytes;
-
-/// Enough for some to fill or empty their chunks while those of others travel.
-constexpr int most_channels = 16;
+/// A thread fills or empties one half of its chunk while the other travels. Halves fit a core's cache, so that what is
+/// there costs no bandwidth of the host's memory.
+constexpr std::size_t half_bytes = std::size_t(1) << 20;
 
 /// One thread's way to the device and back, and the pinned memory that it goes through.
 struct CopyChannel {
-  PinnedArray<char> chunk;
-  detail::CopyStream streams[2];  ///< of its halves
+  struct Half {
+    PinnedArray<char> memory;
+    detail::CopyStream stream;
+  };
+  std::array<Half, 2> halves;
 
   /// Waits for all copies that have begun.
   void wait() const {
-    for (const detail::CopyStream& stream : streams) stream.wait();
+    for (const Half& half : halves) half.stream.wait();
   }
 };
 
-/// The channels of the process, which live until Kokkos is finalized: pinning memory takes longer than most copies.
+/// Bytes of an array.
+struct Piece {
+  std::size_t begin, size;
+};
+
+/// The channels of the process, which live until Kokkos is finalized: pinning memory takes longer than most copies. A
+/// copy takes enough for some to fill or empty theirs while those of others travel, and leaves some for another one.
 class CopyChannels {
  public:
   static CopyChannels& instance() {
@@ -82,27 +91,28 @@ class CopyChannels {
 
   void prepare(int threads) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    add_channels(std::min(threads, most_channels));
+    add_channels(std::min(threads, most_of_one) + most_channels - most_of_one);
   }
 
-  /// Calls copy(channel, begin, size) for the pieces of `bytes` bytes, each of a chunk at most. Returns when all copies
-  /// that these calls begin are done.
-  template <class Copy>
-  void for_pieces(std::size_t bytes, const Copy& copy) {
-    const std::size_t chunks = (bytes + chunk_bytes - 1) / chunk_bytes;
-    const int threads = static_cast<int>(std::min<std::size_t>(chunks, std::min(host_threads(), most_channels)));
-    if (threads == 0) return;
-    const std::lock_guard<std::mutex> lock(mutex_);
-    add_channels(threads);
+  /// Calls work(channel, take) on some threads, each with a channel of its own; take() is the next piece of `bytes`
+  /// bytes, of half a channel's memory at most, in the end one without bytes. Returns when all copies that these calls
+  /// begin are done.
+  template <class Work>
+  void for_pieces(std::size_t bytes, const Work& work) {
+    const std::size_t pieces = (bytes + half_bytes - 1) / half_bytes;
+    if (pieces == 0) return;
+    const TakenChannels taken(*this, static_cast<int>(std::min<std::size_t>(pieces, host_threads())));
     std::atomic<std::size_t> next{0};
-    on_threads(threads, [&](int thread) {
-      const CopyChannel& channel = channels_[thread];
+    const auto take = [&]() -> Piece {
+      detail::stop_if_asked();
+      const std::size_t piece = next++;
+      if (piece >= pieces) return {bytes, 0};
+      return {piece * half_bytes, std::min(half_bytes, bytes - piece * half_bytes)};
+    };
+    on_threads(static_cast<int>(taken.channels.size()), [&](int thread) {
+      const CopyChannel& channel = *taken.channels[thread];
       try {
-        for (std::size_t chunk; (chunk = next++) < chunks;) {
-          detail::stop_if_asked();
-          const std::size_t begin = chunk * chunk_bytes;
-          copy(channel, begin, std::min(chunk_bytes, bytes - begin));
-        }
+        work(channel, take);
       } catch (...) {
         channel.wait();  // the caller may free what they write to
         throw;
@@ -112,18 +122,55 @@ class CopyChannels {
   }
 
  private:
-  /// New channels take their chunks from one array: pinning costs more by the call than by the byte.
+  static constexpr int most_of_one = 16, most_channels = 20;
+
+  /// Channels of one copy: as many as it wants, or as are left.
+  struct TakenChannels {
+    TakenChannels(CopyChannels& from, int wanted) : all(from) {
+      wanted = std::min(wanted, most_of_one);
+      std::unique_lock<std::mutex> lock(all.mutex_);
+      all.add_channels(static_cast<int>(all.channels_.size() - all.free_.size()) + wanted);
+      all.changed_.wait(lock, [&] { return !all.free_.empty(); });
+      const auto first = all.free_.end() - std::min<std::ptrdiff_t>(wanted, std::ptrdiff_t(all.free_.size()));
+      channels.assign(first, all.free_.end());
+      all.free_.erase(first, all.free_.end());
+    }
+    ~TakenChannels() {
+      const std::lock_guard<std::mutex> lock(all.mutex_);
+      all.free_.insert(all.free_.end(), channels.begin(), channels.end());
+      all.changed_.notify_all();
+    }
+    TakenChannels(const TakenChannels&) = delete;
+    TakenChannels& operator=(const TakenChannels&) = delete;
+
+    CopyChannels& all;
+    std::vector<const CopyChannel*> channels;
+  };
+
+  /// Has there be so many, as far as there may be. New ones take their memory from one array: pinning costs more by the
+  /// call than by the byte.
   void add_channels(int count) {
-    const int missing = count - static_cast<int>(channels_.size());
+    const int missing = std::min(count, most_channels) - static_cast<int>(channels_.size());
     if (missing <= 0) return;
     use_device();
-    if (channels_.empty()) Kokkos::push_finalize_hook([this] { channels_.clear(); });
-    const PinnedArray<char> chunks(static_cast<std::size_t>(missing) * chunk_bytes);
-    for (int i = 0; i < missing; ++i) channels_.push_back({chunks.slice(i * chunk_bytes, chunk_bytes), {}});
+    if (channels_.empty()) {
+      Kokkos::push_finalize_hook([this] {
+        free_.clear();
+        channels_.clear();
+      });
+    }
+    const PinnedArray<char> memory(static_cast<std::size_t>(missing) * 2 * half_bytes);
+    const auto half = [&](int i) { return CopyChannel::Half{memory.slice(i * half_bytes, half_bytes), {}}; };
+    for (int i = 0; i < missing; ++i) {
+      channels_.push_back({{half(2 * i), half(2 * i + 1)}});
+      free_.push_back(&channels_.back());
+    }
   }
 
   std::mutex mutex_;
-  std::vector<CopyChannel> channels_;
+  std::condition_variable changed_;
+  std::deque<CopyChannel> channels_;
+  std::vector<const CopyChannel*> free_;
 };
 
 }  // namespace
@@ -145,14 +192,13 @@ void prepare_copies(int threads) { CopyChannels::instance().prepare(threads); }
 void write_to_device(void* device, std::size_t bytes,
                      const std::function<void(char* to, std::size_t begin, std::size_t size)>& write) {
   detail::wait_for(WorkerSpace(), "GALE::copy");
-  CopyChannels::instance().for_pieces(bytes, [&](const CopyChannel& channel, std::size_t begin, std::size_t size) {
-    for (std::size_t from = 0; from < size; from += half_bytes) {
-      const std::size_t count = std::min(half_bytes, size - from);
-      const detail::CopyStream& stream = channel.streams[from / half_bytes];
-      char* const half = channel.chunk.data() + from;
+  CopyChannels::instance().for_pieces(bytes, [&](const CopyChannel& channel, const auto& take) {
+    int i = 0;
+    for (Piece piece = take(); piece.size > 0; piece = take(), i ^= 1) {
+      const auto& [memory, stream] = channel.halves[i];
       stream.wait();
-      write(half, begin + from, count);
-      stream.begin_copy(static_cast<char*>(device) + begin + from, half, count);
+      write(memory.data(), piece.begin, piece.size);
+      stream.begin_copy(static_cast<char*>(device) + piece.begin, memory.data(), piece.size);
     }
   });
 }
@@ -165,9 +211,24 @@ void copy_to_device(void* device, const void* host, std::size_t bytes) {
 
 void copy_from_device(void* host, const void* device, std::size_t bytes) {
   detail::wait_for(WorkerSpace(), "GALE::copy");
-  CopyChannels::instance().for_pieces(bytes, [&](const CopyChannel& channel, std::size_t begin, std::size_t size) {
-    channel.streams[0].copy(channel.chunk.data(), static_cast<const char*>(device) + begin, size);
-    std::memcpy(static_cast<char*>(host) + begin, channel.chunk.data(), size);
+  detail::copy_what_is_made(host, device, bytes);
+}
+
+void detail::copy_what_is_made(void* host, const void* device, std::size_t bytes) {
+  CopyChannels::instance().for_pieces(bytes, [&](const CopyChannel& channel, const auto& take) {
+    const auto begin = [&](int i, const Piece& piece) {
+      const auto& [memory, stream] = channel.halves[i];
+      if (piece.size > 0) stream.begin_copy(memory.data(), static_cast<const char*>(device) + piece.begin, piece.size);
+    };
+    Piece piece = take();
+    begin(0, piece);
+    for (int i = 0; piece.size > 0; i ^= 1) {
+      const Piece next = take();
+      begin(i ^ 1, next);
+      channel.halves[i].stream.wait();
+      std::memcpy(static_cast<char*>(host) + piece.begin, channel.halves[i].memory.data(), piece.size);
+      piece = next;
+    }
   });
 }
 

@@ -50,10 +50,17 @@ class PinnedArray {
 
 /// Copies `bytes` bytes between ordinary host memory and the device, at the bandwidth of pinned memory: all host
 /// threads copy through pinned chunks of their own. Waits first for what is enqueued on WorkerSpace(), which may have
-/// made the data, and returns when it is done. One call at a time is fast, more wait for each other. Without a device
-/// both are host memory.
+/// made the data, and returns when it is done. Calls on several threads share the way. Without a device both are host
+/// memory.
 GALE_EXPORT void copy_to_device(void* device, const void* host, std::size_t bytes);
 GALE_EXPORT void copy_from_device(void* host, const void* device, std::size_t bytes);
+
+namespace detail {
+
+/// copy_from_device for what was made before, whatever kernels do meanwhile.
+GALE_EXPORT void copy_what_is_made(void* host, const void* device, std::size_t bytes);
+
+}  // namespace detail
 
 /// Copies bytes that write(to, begin, size) puts at `to` as they are wanted: `size` of them from the begin-th on,
 /// by all host threads; both are multiples of 1 MiB, but for the last size.

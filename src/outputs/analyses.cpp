@@ -128,6 +128,7 @@ Analysis persistence_diagrams() {
                        {}}};
   analysis.find = [](const AnalysisInput& input, const Settings& settings, Computed& computed) -> Found {
     const double threshold = threshold_in(input, settings);
+    input.order.bring_keys_to_host();
     const DiscreteGradient gradient =
         find_discrete_gradient(input.order, input.next("Pairing simplices", 0, 0.6), &computed);
     const PersistencePairs pairs = find_persistence_pairs(gradient, input.next("Finding pairs", 0.6, 1));

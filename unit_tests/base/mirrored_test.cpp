@@ -56,6 +56,20 @@ TEST(Mirrored, copies_share_what_was_copied) {
   EXPECT_EQ(one.in<HostMemory>().data(), first) << "once";
 }
 
+TEST(Mirrored, is_on_the_host_once_however_often_it_is_brought_there) {
+  const auto made = to_worker(numbers());
+  for (const Mirrored<Id>& array : {Mirrored<Id>(made), Mirrored<Id>(on_host(made)), Mirrored<Id>()}) {
+    const Mirrored<Id> other = array;
+    array.bring_to_host();
+    other.bring_to_host();
+    const Id* const there = array.in<HostMemory>().data();
+    EXPECT_EQ(to_vector(other.in<HostMemory>()), array.size() == 0 ? std::vector<Id>() : numbers());
+    array.bring_to_host();
+    EXPECT_EQ(other.in<HostMemory>().data(), there);
+  }
+  Mirrored<Id>(to_worker(numbers())).bring_to_host();  // nobody asks for it
+}
+
 TEST(Mirrored, is_copied_once_by_whichever_thread_comes_first) {
   const Mirrored<Id> array(to_worker(numbers()));
   constexpr int count = 8;

@@ -1,7 +1,9 @@
+#include <atomic>
 #include <numeric>
 
 #include <gtest/gtest.h>
 
+#include <gale/base/threads.hpp>
 #include <gale/base/transfer.hpp>
 #include <gale/base/types.hpp>
 
@@ -31,7 +33,7 @@ TEST(Transfer, there_and_back_keeps_every_entry) {
 }
 
 TEST(Transfer, goes_in_pieces_through_pinned_memory) {
-  constexpr std::size_t mebi = 1 << 20;  // pieces have 2 MiB, in halves
+  constexpr std::size_t mebi = 1 << 20;  // which pieces have
   prepare_copies(3);
   for (const std::size_t count : {std::size_t(0), std::size_t(1), mebi / 4 + 1, mebi / 2, 5 * mebi + 3}) {
     const auto from = numbers(count), back = numbers(count);
@@ -43,6 +45,20 @@ TEST(Transfer, goes_in_pieces_through_pinned_memory) {
     for (std::size_t i = 0; i < count; ++i) different += back(i) != from(i);
     EXPECT_EQ(different, 0u) << "of " << count;
   }
+}
+
+TEST(Transfer, of_many_threads_keeps_what_each_has_apart) {
+  constexpr std::size_t count = 700'000;
+  std::atomic<std::size_t> different{0};
+  on_threads(24, [&](int thread) {
+    const Array<Id, HostMemory> from("from", count), back("back", count);
+    for (std::size_t i = 0; i < count; ++i) from(i) = static_cast<Id>(thread * count + i);
+    const auto there = allocate<Array<Id, WorkerMemory>>("there", count);
+    copy_to_device(there.data(), from.data(), count * sizeof(Id));
+    detail::copy_what_is_made(back.data(), there.data(), count * sizeof(Id));
+    for (std::size_t i = 0; i < count; ++i) different += back(i) != from(i);
+  });
+  EXPECT_EQ(different, 0u);
 }
 
 TEST(Transfer, a_write_that_fails_leaves_the_next_as_it_should_be) {

@@ -25,10 +25,19 @@ std::vector<std::array<Id, 2>> EdgeFall::fall(std::vector<std::array<Id, 2>> edg
   }
 }
 
+/// Falls again on the host if the device is full.
 std::vector<std::array<Id, 3>> EdgeFall::passed() {
-  auto passed = by_kernels_ ? by_kernels_->passed() : std::move(passed_);
-  by_kernels_.reset();
-  return passed;
+  if (by_kernels_) {
+    try {
+      auto passed = by_kernels_->passed();
+      by_kernels_.reset();
+      return passed;
+    } catch (const OutOfMemory&) {
+      by_kernels_.reset();
+      fall_on_host(std::move(starts_));
+    }
+  }
+  return std::move(passed_);
 }
 
 /// Has a thread go on from one edge for some steps, and leave what is open then to whoever comes next.

@@ -1,27 +1,31 @@
+#include <algorithm>
+
 #include <gale/algorithms/excerpt/falling_edges.hpp>
 #include <gale/base/error.hpp>
 #include <gale/base/stop.hpp>
+#include <gale/base/thread_stack.hpp>
 #include <gale/base/transfer.hpp>
 
 namespace gale::detail {
 
 namespace {
 
-/// Edges that a thread comes to before it looks whether there is room for more: a first one, and two sides.
-constexpr Offset most_at_once = 3;
-
-/// Steps that a thread goes on in one launch, so that edges that were left open don't wait for the longest way.
+/// Steps that a thread takes in one launch at most, so that edges that were left open don't wait for the longest way.
 constexpr int most_steps = 16;
+
+/// A thread finds so many edges at most, and leaves as many open at most: a first one, and two sides in each step.
+constexpr Offset most_found(int steps) { return 2 * Offset(steps) + 1; }
 
 /// What stands for no edge to go on from.
 KOKKOS_FUNCTION FallenEdge no_edge() { return {no_id, no_id, no_id}; }
 
-/// Comes to edges and goes on from there, one thread of a launch.
+/// Comes to edges and goes on from there, one thread of a launch. Threads tell of what they have found once, at their
+/// ends, but for what is left to other ranks.
 struct FallFrom {
   EdgesInKernels edges;
   Array<const std::uint64_t, WorkerMemory> keys;
   FallenEdges found;
-  Offset threads;  ///< of the launch
+  int steps;  ///< 1 to most_steps
 
   /// An edge, and what it is paired with: no_id where another rank knows.
   KOKKOS_FUNCTION FallenEdge look_at(Id high, Id low) const {
@@ -29,49 +33,37 @@ struct FallFrom {
   }
 
   /// Comes to an edge. Returns it if others fall from it and it is new, else none.
-  KOKKOS_FUNCTION FallenEdge come_to(const FallenEdge& edge) const {
+  KOKKOS_FUNCTION FallenEdge come_to(const FallenEdge& edge, Offset& count) const {
     const bool is_here = edges.owned.has(edge.high);
     if (is_here && edge.third == edge_has_vertex) return no_edge();
     bool is_new = false;
-    found.known.insert(pair_key(edge.high, edge.low), is_new);
+    found.all.insert(pair_key(edge.high, edge.low), is_new);
     if (!is_new) return no_edge();
-    if (!is_here) {
-      found.left(atomic_add(&found.counts(0).left, Offset(1))) = {edge.high, edge.low};
-      return no_edge();
-    }
-    found.passed(atomic_add(&found.counts(0).passed, Offset(1))) = edge;
-    return edge.third < 0 ? no_edge() : edge;
+    ++count;
+    if (is_here) return edge.third < 0 ? no_edge() : edge;
+    found.left(atomic_add(&found.counts(0).left, Offset(1))) = {edge.high, edge.low};
+    return no_edge();
   }
 
-  KOKKOS_FUNCTION void leave_open(const FallenEdge& edge) const {
-    if (edge.high != no_id) found.open(atomic_add(&found.counts(0).open, Offset(1))) = edge;
-  }
-
-  /// Goes on from an edge, a first step in any case.
-  KOKKOS_FUNCTION void go_on(FallenEdge edge) const {
-    for (int step = 0; edge.high != no_id; ++step) {
-      if (step == most_steps || (step > 0 && !has_room())) return leave_open(edge);
+  /// Goes on from an edge, unless it is none; `count` were found before.
+  KOKKOS_FUNCTION void go_on(FallenEdge edge, Offset count) const {
+    ThreadStack<FallenEdge, most_steps + 1> open;
+    for (int step = 0; step < steps && edge.high != no_id; ++step) {
       const FallenEdge sides[] = {side(edge.high, edge.third), side(edge.low, edge.third)};
-      const FallenEdge one = come_to(sides[0]), other = come_to(sides[1]);
-      const bool has_one = one.high != no_id;
-      if (has_one) leave_open(other);
-      edge = has_one ? one : other;
+      const FallenEdge one = come_to(sides[0], count), other = come_to(sides[1], count);
+      if (one.high != no_id && other.high != no_id) open.push(other);
+      edge = one.high != no_id ? one : other;
+      if (edge.high == no_id && !open.is_empty()) edge = open.pop();
     }
+    if (edge.high != no_id) open.push(edge);
+    open.append_to(found.open, &found.counts(0).open);
+    if (count > 0) atomic_add(&found.counts(0).all, count);
   }
 
  private:
   KOKKOS_FUNCTION FallenEdge side(Id end, Id third) const {
     const bool in_order = keys(end) > keys(third);
     return look_at(in_order ? end : third, in_order ? third : end);
-  }
-
-  /// Is there room for a step of each thread?
-  KOKKOS_FUNCTION bool has_room() const {
-    const FallenCounts& counts = found.counts(0);
-    const Offset more = most_at_once * threads;
-    const Offset passed = atomic_read(&counts.passed) + more, left = atomic_read(&counts.left) + more;
-    return detail::has_room(found.passed, passed) && detail::has_room(found.left, left) &&
-           detail::has_room(found.open, atomic_read(&counts.open) + more) && found.known.has_room(passed + left);
   }
 };
 
@@ -80,7 +72,7 @@ struct FallFromOpen {
   FallFrom fall;
   Offset first;
 
-  KOKKOS_FUNCTION void operator()(Offset i) const { fall.go_on(fall.found.open(first + i)); }
+  KOKKOS_FUNCTION void operator()(Offset i) const { fall.go_on(fall.found.open(first + i), 0); }
 };
 
 /// Begins with some edges.
@@ -89,7 +81,25 @@ struct BeginEdges {
   Array<const Id, WorkerMemory> ends;  ///< two for each
 
   KOKKOS_FUNCTION void operator()(Offset i) const {
-    fall.go_on(fall.come_to(fall.look_at(ends(2 * i), ends(2 * i + 1))));
+    Offset count = 0;
+    const FallenEdge edge = fall.come_to(fall.look_at(ends(2 * i), ends(2 * i + 1)), count);
+    fall.go_on(edge, count);
+  }
+};
+
+/// Puts the edges of a table that this rank follows in a row, in no order.
+struct PutPassed {
+  EdgesInKernels edges;
+  KeyTable all;
+  Array<FallenEdge, WorkerMemory> passed;
+  Array<Offset, WorkerMemory> count;  ///< one
+
+  KOKKOS_FUNCTION void operator()(Offset place) const {
+    const std::uint64_t key = all.at(place);
+    if (key == KeyTable::none) return;
+    const Id high = pair_first(key), low = pair_second(key);
+    if (!edges.owned.has(high)) return;
+    passed(atomic_add(&count(0), Offset(1))) = {high, low, edges(high, low).third};
   }
 };
 
@@ -97,11 +107,7 @@ struct BeginEdges {
 
 FallingEdges::FallingEdges(const DiscreteGradient& gradient)
     : edges_(gradient), keys_(gradient.order().keys_in<WorkerMemory>()) {
-  constexpr Offset least = 1 << 16;
-  found_ = {KeyTable(space_, 4 * least), allocate<decltype(found_.passed)>("GALE::fallen_edges", least),
-            allocate<decltype(found_.open)>("GALE::open_edges", least),
-            allocate<decltype(found_.left)>("GALE::left_edges", least),
-            allocate<decltype(found_.counts)>("GALE::fallen_counts", 1)};
+  found_.counts = allocate<decltype(found_.counts)>("GALE::fallen_counts", 1);
   fill("GALE::fallen_counts", space_, found_.counts, FallenCounts());
 }
 
@@ -110,14 +116,14 @@ std::vector<std::array<Id, 2>> FallingEdges::fall(const std::vector<std::array<I
   const Offset left_before = counts_.left, count = static_cast<Offset>(edges.size());
   const auto ends = in_memory<WorkerMemory>(Array<const Id, HostMemory>(edges[0].data(), 2 * edges.size()));
   Offset first = counts_.open;
-  reserve_first(count);
-  parallel_for("GALE::begin_edges", space_, count, BeginEdges{{edges_, keys_, found_, count}, ends});
+  const int steps = reserve(count);
+  parallel_for("GALE::begin_edges", space_, count, BeginEdges{{edges_, keys_, found_, steps}, ends});
   take_counts();
   while (first < counts_.open) {
     stop_if_asked();
     const Offset open = counts_.open - first;
-    reserve(most_at_once * open);
-    parallel_for("GALE::fall_from_open", space_, open, FallFromOpen{{edges_, keys_, found_, open}, first});
+    const int more_steps = reserve(open);
+    parallel_for("GALE::fall_from_open", space_, open, FallFromOpen{{edges_, keys_, found_, more_steps}, first});
     first += open;
     take_counts();
   }
@@ -127,30 +133,39 @@ std::vector<std::array<Id, 2>> FallingEdges::fall(const std::vector<std::array<I
 }
 
 std::vector<std::array<Id, 3>> FallingEdges::passed() const {
-  const auto here = on_host(first_of(found_.passed, counts_.passed));
-  std::vector<std::array<Id, 3>> all(counts_.passed);
-  parallel_for("GALE::fallen_edges", HostExecutionSpace(), counts_.passed, [&](Offset i) {
+  const Offset count = counts_.all - counts_.left;
+  const auto there = allocate<Array<FallenEdge, WorkerMemory>>("GALE::fallen_edges", count);
+  const auto put = allocate<Array<Offset, WorkerMemory>>("GALE::fallen_edges_put", 1);
+  fill("GALE::fallen_edges_put", space_, put, Offset(0));
+  parallel_for("GALE::fallen_edges", space_, found_.all.places(), PutPassed{edges_, found_.all, there, put});
+  space_.fence();
+  const auto here = on_host(there);
+  std::vector<std::array<Id, 3>> all(count);
+  parallel_for("GALE::fallen_edges", HostExecutionSpace(), count, [&](Offset i) {
     all[i] = {here(i).high, here(i).low, here(i).third};
   });
   return all;
 }
 
-/// Makes room for so many more edges that kernels may come to.
-void FallingEdges::reserve(Offset more) {
-  make_room(space_, "GALE::fallen_edges", found_.passed, counts_.passed, counts_.passed + more);
-  make_room(space_, "GALE::left_edges", found_.left, counts_.left, counts_.left + more);
-  make_room(space_, "GALE::open_edges", found_.open, counts_.open, counts_.open + more);
-  make_room(space_, found_.known, counts_.passed + counts_.left + more);
+/// Makes room for what a launch of so many threads finds, in half of the steps that it may take where there is so much,
+/// else in one. Returns how many steps there is room for then. Throws OutOfMemory.
+int FallingEdges::reserve(Offset threads) {
+  try {
+    make_room_for(threads * most_found(most_steps / 2));
+  } catch (const OutOfMemory&) {
+    make_room_for(threads * most_found(1));
+  }
+  const auto room_of = [](const auto& array) { return static_cast<Offset>(array.extent(0)); };
+  const Offset room = std::min({found_.all.room() - counts_.all, room_of(found_.open) - counts_.open,
+                                room_of(found_.left) - counts_.left});
+  return static_cast<int>(std::min((room / threads - 1) / 2, Offset(most_steps)));
 }
 
-/// Makes room for so many edges to begin with, and for what most come to where there is room for that.
-void FallingEdges::reserve_first(Offset count) {
-  constexpr Offset behind_each = 16;
-  try {
-    reserve((counts_.passed == 0 ? behind_each : most_at_once) * count);
-  } catch (const OutOfMemory&) {
-    reserve(most_at_once * count);
-  }
+void FallingEdges::make_room_for(Offset more) {
+  constexpr Offset least = 1 << 16;
+  make_room(space_, "GALE::left_edges", found_.left, counts_.left, counts_.left + more);
+  make_room(space_, "GALE::open_edges", found_.open, counts_.open, counts_.open + more);
+  make_room(space_, found_.all, std::max(counts_.all + more, least));
 }
 
 /// Learns how many kernels have found.

@@ -14,23 +14,23 @@ struct FallenEdge {
   Id high, low, third;
 };
 
-/// How many edges kernels have found: those that were passed, those that are other ranks' to follow, and of those that
-/// were passed the ones that threads have left open, for launches to go on from in this order.
+/// How many edges kernels have found, those that are other ranks' to follow among all, and those that threads have left
+/// open, for launches to go on from in this order.
 struct FallenCounts {
-  Offset passed = 0, left = 0, open = 0;
+  Offset all = 0, left = 0, open = 0;
 };
 
 /// Where kernels put edges that fall. Copies share it.
 struct FallenEdges {
-  KeyTable known;  ///< all of these
-  Array<FallenEdge, WorkerMemory> passed, open;
+  KeyTable all;  ///< by their ends, the higher one first
+  Array<FallenEdge, WorkerMemory> open;
   Array<std::array<Id, 2>, WorkerMemory> left;
   Array<FallenCounts, WorkerMemory> counts;  ///< one
 };
 
 /// Edges that fall along a gradient that kernels found: from one that is paired with a triangle to the other edges of
-/// that triangle, and so on. Each is passed once. A thread goes some steps down one way and leaves open where ways
-/// part: these are the next launch's. Takes 50 to 120 bytes an edge in the workers' memory. Refers to the gradient.
+/// that triangle, and so on. Each is passed once. A thread goes some steps down one way after the other, and leaves the
+/// rest to the next launch. Takes 15 to 40 bytes an edge in the workers' memory. Refers to the gradient.
 class FallingEdges {
  public:
   /// Throws OutOfMemory.
@@ -44,8 +44,8 @@ class FallingEdges {
   std::vector<std::array<Id, 3>> passed() const;
 
  private:
-  void reserve_first(Offset count);
-  void reserve(Offset more);
+  int reserve(Offset threads);
+  void make_room_for(Offset more);
   void take_counts();
 
   const WorkerSpace space_{};

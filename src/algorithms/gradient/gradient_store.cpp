@@ -170,6 +170,15 @@ const EdgePairs& GradientStore::pairs() const {
   return pairs_;
 }
 
+void GradientStore::bring_pairs_to_host() const {
+  if (has_codes()) {
+    codes().bring_to_host();
+  } else if (is_from_kernels()) {
+    pair_words_.bring_to_host();
+    pairs_begin_.bring_to_host();
+  }
+}
+
 VertexSteps GradientStore::vertex_steps() const {
   const GridCodes* const codes = mesh.dimension() == 3 ? pairs().codes() : nullptr;
   return codes != nullptr ? VertexSteps{nullptr, codes} : VertexSteps{vertex_successors().in<HostMemory>().data()};

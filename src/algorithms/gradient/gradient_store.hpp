@@ -195,6 +195,9 @@ class GALE_EXPORT GradientStore {
   const EdgePairs& pairs() const;
   VertexSteps vertex_steps() const;
 
+  /// Begins to bring what pairs() reads to the host, where kernels found it.
+  void bring_pairs_to_host() const;
+
   /// Whether kernels found it, of a mesh of tetrahedra. Then these are the words of EdgePairRows, and where each
   /// vertex's row begins among them.
   bool is_from_kernels() const { return pairs_begin_.size() != 0; }

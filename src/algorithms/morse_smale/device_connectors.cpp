@@ -16,19 +16,37 @@ namespace {
 template <class T>
 using Given = Kokkos::View<const T*, HostMemory, Kokkos::MemoryUnmanaged>;
 
-/// Puts critical triangles at the beginning, with open sides.
-void begin_walls(const WorkerSpace& space, Id count, const InWorkers<const Id>& vertices, const WallSink& sink) {
+/// Puts critical triangles at the beginning, and leaves them open.
+void begin_walls(const WorkerSpace& space, const InWorkers<const Id>& vertices, const WallSink& sink) {
   parallel_for(
-      "GALE::begin_walls", space, count, KOKKOS_LAMBDA(Offset i) {
-        sink.triangles(i) = {vertices(3 * i), vertices(3 * i + 1), vertices(3 * i + 2), static_cast<Id>(i)};
+      "GALE::begin_walls", space, sink.walls, KOKKOS_LAMBDA(Offset i) {
+        sink.critical(i) = {vertices(3 * i), vertices(3 * i + 1), vertices(3 * i + 2), static_cast<Id>(i)};
         sink.open(i) = static_cast<std::uint32_t>(i);
       });
 }
 
-/// Says which edges triangles are above.
-void put_above(const WorkerSpace& space, Offset triangles, const GrownWalls& walls) {
+/// Has walls have another table of edges, and what goes by the places there. Both have the same edges then, and
+/// triangles are numbered anew: those from `first` on that are open, too.
+void move_edges(const WorkerSpace& space, const WallSink& from, const WallSink& to, Offset first, Offset open) {
   parallel_for(
-      "GALE::put_above", space, triangles, KOKKOS_LAMBDA(Offset i) { walls.put_above(i); });
+      "GALE::move_wall_edges", space, from.edges.places(), KOKKOS_LAMBDA(Offset place) {
+        const std::uint64_t key = from.edges.at(place);
+        bool is_new;
+        if (key != KeyTable::none) to.triangles(to.edges.insert(key, is_new)) = from.triangles(place);
+      });
+  parallel_for(
+      "GALE::move_open_triangles", space, open - first, KOKKOS_LAMBDA(Offset i) {
+        std::uint32_t& number = to.open(first + i);
+        if (!from.is_critical(number)) number = to.number_of(to.edges.find(from.edges.at(from.place_of(number))));
+      });
+  space.fence();
+}
+
+/// Finishes walls that have grown.
+void finish_walls(const WorkerSpace& space, const GrownWalls& walls) {
+  parallel_for(
+      "GALE::finish_walls", space, walls.sink.walls + walls.sink.edges.places(),
+      KOKKOS_LAMBDA(Offset i) { walls.finish(i); });
 }
 
 template <class T>
@@ -66,7 +84,7 @@ void append_paths(const WorkerSpace& space, const GrownWalls& walls, const std::
       "GALE::follow_connectors", space, count, KOKKOS_LAMBDA(Offset i) {
         Offset at = begin(i);
         walls.climb(rims(i), [&](std::uint32_t number, bool) {
-          const WallTriangle& triangle = walls.triangles(number);
+          const WallTriangle& triangle = walls.sink.triangle(number);
           cells(at++) = {triangle.high, triangle.low, triangle.third};
         });
       });
@@ -107,53 +125,72 @@ class Connectors {
   Separatrices<TriangleVertices> paths;
 
  private:
-  GrownWalls grow(Id first_wall, Id count, Offset most_triangles) {
+  GrownWalls grow(Id first_wall, Id count, Offset most_edges) {
     begin(critical_.data() + first_wall, count);
     for (Offset first = 0; first < counts_.open;) {
       stop_if_asked();
+      if (counts_.edges > most_edges) throw OutOfMemory("walls of more than " + std::to_string(most_edges) + " edges");
       const Offset open = counts_.open - first;
-      reserve(GrowWalls::most_sides * open, most_triangles);
-      parallel_for("GALE::grow_walls", space_, open, GrowWalls{rows_, found_, count, first, open, most_triangles});
+      const int steps = reserve(first, open);
+      parallel_for("GALE::grow_walls", space_, open, GrowWalls{rows_, found_, first, steps});
       Kokkos::deep_copy(space_, Kokkos::View<WallCounts*, HostMemory, Kokkos::MemoryUnmanaged>(&counts_, 1),
                         found_.counts);
       space_.fence();
       first += open;
     }
-    const GrownWalls grown{rows_, found_.triangles, count, WallTable(space_, found_.edges, found_.keys)};
-    put_above(space_, counts_.triangles, grown);
+    const GrownWalls grown{rows_, found_, WallTable(space_, found_.edges.places()),
+                           allocate<InWorkers<WallRim>>("GALE::wall_rims", counts_.rims)};
+    finish_walls(space_, grown);
     return grown;
   }
 
   void begin(const TriangleVertices* critical, Id count) {
-    found_.triangles = {};  // of other walls
-    found_.rims = {};
+    found_.walls = count;
+    found_.critical = {};  // of other walls
+    found_.triangles = {};
     found_.open = {};
     found_.edges = {};
-    counts_ = {count, 0, count};
-    const Offset room = std::max(16 * Offset(count), Offset(1) << 16);
-    found_.triangles = allocate<InWorkers<WallTriangle>>("GALE::wall_triangles", room);
-    found_.rims = allocate<InWorkers<WallRim>>("GALE::wall_rims", room);
-    found_.open = allocate<InWorkers<std::uint32_t>>("GALE::open_triangles", room);
-    found_.edges = KeyTable(space_, Offset(1) << bits_for(2 * room));
+    counts_ = {0, 0, count};
+    found_.critical = allocate<InWorkers<WallTriangle>>("GALE::critical_triangles", count);
+    found_.open = allocate<InWorkers<std::uint32_t>>("GALE::open_triangles", count);
     Kokkos::deep_copy(found_.counts, Given<WallCounts>(&counts_, 1));
-    const auto vertices = in_memory<WorkerMemory>(Given<Id>(critical->data(), 3 * static_cast<std::size_t>(count)));
-    begin_walls(space_, count, vertices, found_);
+    begin_walls(space_, in_memory<WorkerMemory>(Given<Id>(critical->data(), 3 * static_cast<std::size_t>(count))),
+                found_);
     space_.fence();
   }
 
-  /// Makes room for what a launch adds at least: one step of each thread. Throws OutOfMemory.
-  void reserve(Offset more, Offset most_triangles) {
-    const Offset most = std::min(most_triangles, WallTable::most_triangles - more);
-    if (counts_.triangles > most) throw OutOfMemory("walls of more than " + std::to_string(most) + " triangles");
-    make_room(space_, "GALE::wall_triangles", found_.triangles, counts_.triangles, counts_.triangles + more);
-    make_room(space_, "GALE::wall_rims", found_.rims, counts_.rims, counts_.rims + more);
+  /// Makes room for what a launch of so many threads finds in half of the steps that it may take, where there is so
+  /// much, else in one. Returns how many steps there is room for then. Throws OutOfMemory.
+  int reserve(Offset first, Offset threads) {
+    constexpr int few = GrowWalls::most_steps / 2;
+    try {
+      make_room_for(threads * GrowWalls::most_found(few), first, counts_.edges);
+    } catch (const OutOfMemory&) {
+      make_room_for(threads * GrowWalls::most_found(1), first, 0);
+    }
+    const Offset room = std::min(found_.edges.room() - counts_.edges, Offset(found_.open.extent(0)) - counts_.open);
+    return static_cast<int>(std::min((room / threads - 1) / 2, Offset(GrowWalls::most_steps)));
+  }
+
+  /// Makes room for so many more edges and open triangles; where the table has to grow, for `later` edges besides, as it
+  /// takes time to move what is there.
+  void make_room_for(Offset more, Offset first, Offset later) {
+    constexpr Offset most_places = Offset(1) << 30, least = Offset(1) << 16;
     make_room(space_, "GALE::open_triangles", found_.open, counts_.open, counts_.open + more);
-    make_room(space_, found_.edges, counts_.triangles + counts_.rims + more);
+    const Offset edges = counts_.edges + more;
+    if (edges <= found_.edges.room()) return;
+    const Offset places = KeyTable::places_for(std::max(edges + later, least));
+    if (places > most_places) throw OutOfMemory("walls of " + std::to_string(edges + later) + " edges");
+    WallSink larger = found_;
+    larger.edges = KeyTable(space_, places);
+    larger.triangles = allocate<InWorkers<WallTriangle>>("GALE::wall_triangles", places);
+    move_edges(space_, found_, larger, first, counts_.open);
+    found_ = larger;
   }
 
   /// Sorts the rims, which come in no order, by wall and edge. Appends nothing if it throws OutOfMemory.
   void add_paths(Id first, const GrownWalls& walls) {
-    const auto there = on_host(first_of(found_.rims, counts_.rims));
+    const auto there = on_host(walls.rims);
     using Keyed = std::pair<std::pair<Id, Id>, WallRim>;
     auto rims = unwritten<Keyed>(counts_.rims);
     parallel_for("GALE::rims", HostExecutionSpace(), counts_.rims, [&](Offset i) {

@@ -6,15 +6,20 @@
 #include <gale/algorithms/morse_smale/wall_table.hpp>
 #include <gale/base/atomic.hpp>
 #include <gale/base/memory.hpp>
+#include <gale/base/thread_stack.hpp>
 
 // Descending walls that grow side by side in kernels, and the ways up them.
+//
+// A triangle has a number: a critical one its place among these, every other one that of the edge that it is paired
+// with in the table of edges, behind those of the critical ones.
 
 namespace gale::detail {
 
 template <class T>
 using InWorkers = Array<T, WorkerMemory>;
 
-/// A triangle of a wall; (high, low) is the edge that it is paired with, unless it is the critical one.
+/// A triangle of a wall; (high, low) is the edge that it is paired with, unless it is the critical one. Also a critical
+/// edge that a wall ends at: then `third` is negative.
 struct WallTriangle {
   Id high, low, third;
   Id wall;
@@ -24,22 +29,35 @@ struct WallTriangle {
 struct WallRim {
   Id wall;
   Id high, low;
+  std::uint32_t place;  ///< in the table of edges
 };
 
-/// How many kernels have found so far. Open are triangles that threads have left open, for launches to go on from in
-/// this order.
+/// How many kernels have found so far, the critical edges among the edges. Open are triangles that threads have left
+/// open, for launches to go on from in this order.
 struct WallCounts {
-  Offset triangles = 0, rims = 0, open = 0;
+  Offset edges = 0, rims = 0, open = 0;
 };
 
 /// Where the kernels that make walls grow put what they find. Copies share it.
 struct WallSink {
+  Id walls;
   KeyTable edges;  ///< of walls, by `keys`
   WallEdgeKeys keys;
-  InWorkers<WallTriangle> triangles;  ///< the critical ones first
-  InWorkers<WallRim> rims;
-  InWorkers<std::uint32_t> open;  ///< triangles by their numbers, the critical ones first
-  InWorkers<WallCounts> counts;   ///< one
+  InWorkers<WallTriangle> critical;   ///< by wall
+  InWorkers<WallTriangle> triangles;  ///< by the places of edges
+  InWorkers<std::uint32_t> open;      ///< triangles by their numbers, the critical ones first
+  InWorkers<WallCounts> counts;       ///< one
+
+  KOKKOS_FUNCTION bool is_critical(std::uint32_t number) const { return number < static_cast<std::uint32_t>(walls); }
+  KOKKOS_FUNCTION std::uint32_t number_of(std::uint64_t place) const {
+    return static_cast<std::uint32_t>(walls) + static_cast<std::uint32_t>(place);
+  }
+  KOKKOS_FUNCTION std::uint32_t place_of(std::uint32_t number) const {
+    return number - static_cast<std::uint32_t>(walls);
+  }
+  KOKKOS_FUNCTION const WallTriangle& triangle(std::uint32_t number) const {
+    return is_critical(number) ? critical(number) : triangles(place_of(number));
+  }
 };
 
 /// A side of a wall's triangle, the higher end first.
@@ -65,78 +83,85 @@ KOKKOS_FUNCTION void for_each_side(const WallRows& rows, const WallTriangle& tri
   }
 }
 
-/// Grows walls from an open triangle, one thread of a launch: on along one way as long as there is room, but
-/// `most_steps` at most, so that triangles that were left open don't wait for the longest way. Where ways part, and
-/// where it ends, triangles are left open.
+/// Grows walls from an open triangle, one thread of a launch: one way after the other, but for so many steps alone, so
+/// that no launch waits for the longest way. What is left then is left open. Threads tell of what they have found once,
+/// at their ends: counters that all of them change at every step would be what they wait for.
 struct GrowWalls {
   WallRows rows;
   WallSink sink;
-  Id walls;
-  Offset first, threads;  ///< of `open`, in this launch
-  Offset most_triangles;  ///< to come to while others may be left open
+  Offset first;  ///< of `open`, in this launch
+  int steps;     ///< 1 to most_steps
 
-  static constexpr Offset most_sides = 3;
   static constexpr int most_steps = 16;
 
+  /// A thread finds so many edges at most, and leaves as many triangles open at most: two in each step, where it comes
+  /// from an edge, three in a first one, where a triangle is critical.
+  static constexpr Offset most_found(int steps) { return 2 * Offset(steps) + 1; }
+
   KOKKOS_FUNCTION void operator()(Offset i) const {
+    ThreadStack<std::uint32_t, most_steps + 2> open;
+    WallCounts found;
     std::uint32_t number = sink.open(first + i);
-    WallTriangle triangle = sink.triangles(number);
-    for (int step = 0; number != none; ++step) {
-      if (step == most_steps || (step > 0 && !has_room())) return leave_open(number);
+    WallTriangle triangle = sink.triangle(number);
+    for (int step = 0; step < steps && number != none; ++step) {
       std::uint32_t next = none;
       WallTriangle next_triangle{};
-      for_each_side(rows, triangle, number < static_cast<std::uint32_t>(walls), [&](const WallSide& side) {
-        if (!come_to(triangle.wall, side)) return;
-        leave_open(next);
+      for_each_side(rows, triangle, sink.is_critical(number), [&](const WallSide& side) {
+        const std::uint32_t there = come_to({side.high, side.low, side.edge.third, triangle.wall}, side, found);
+        if (there == none) return;
+        if (next != none) open.push(next);
         next_triangle = {side.high, side.low, side.edge.third, triangle.wall};
-        next = static_cast<std::uint32_t>(atomic_add(&sink.counts(0).triangles, Offset(1)));
-        sink.triangles(next) = next_triangle;
+        next = there;
       });
+      if (next == none && !open.is_empty()) {
+        next = open.pop();
+        next_triangle = sink.triangle(next);
+      }
       number = next;
       triangle = next_triangle;
     }
+    if (number != none) open.push(number);
+    open.append_to(sink.open, &sink.counts(0).open);
+    if (found.edges > 0) atomic_add(&sink.counts(0).edges, found.edges);
+    if (found.rims > 0) atomic_add(&sink.counts(0).rims, found.rims);
   }
 
  private:
   static constexpr std::uint32_t none = ~std::uint32_t(0);
 
-  /// Comes to a side. Does the wall grow on behind it?
-  KOKKOS_FUNCTION bool come_to(Id wall, const WallSide& side) const {
+  /// Comes to what is behind a side: the number of a triangle that the wall grows on from, or none.
+  KOKKOS_FUNCTION std::uint32_t come_to(const WallTriangle& behind, const WallSide& side, WallCounts& found) const {
     bool is_new = false;
-    sink.edges.insert(sink.keys(wall, side.edge.number), is_new);
-    if (!is_new || side.edge.third >= 0) return is_new;
-    sink.rims(atomic_add(&sink.counts(0).rims, Offset(1))) = {wall, side.high, side.low};
-    return false;
-  }
-
-  KOKKOS_FUNCTION void leave_open(std::uint32_t number) const {
-    if (number != none) sink.open(atomic_add(&sink.counts(0).open, Offset(1))) = number;
-  }
-
-  /// Is there room for a step of each thread?
-  KOKKOS_FUNCTION bool has_room() const {
-    const WallCounts& counts = sink.counts(0);
-    const Offset more = most_sides * threads;
-    const Offset triangles = atomic_read(&counts.triangles) + more, rims = atomic_read(&counts.rims) + more;
-    return triangles <= most_triangles && detail::has_room(sink.triangles, triangles) &&
-           detail::has_room(sink.rims, rims) && detail::has_room(sink.open, atomic_read(&counts.open) + more) &&
-           sink.edges.has_room(triangles + rims);
+    const std::uint64_t place = sink.edges.insert(sink.keys(behind.wall, side.edge.number), is_new);
+    if (!is_new) return none;
+    sink.triangles(place) = behind;
+    ++found.edges;
+    if (behind.third >= 0) return sink.number_of(place);
+    ++found.rims;
+    return none;
   }
 };
 
 /// Walls that have grown.
 struct GrownWalls {
   WallRows rows;
-  InWorkers<WallTriangle> triangles;  ///< the critical ones first
-  Id walls;
+  WallSink sink;
   WallTable table;
+  InWorkers<WallRim> rims;  ///< in no order
 
-  /// Says of one triangle which edges it is above.
-  KOKKOS_FUNCTION void put_above(Offset triangle) const {
-    const auto number = static_cast<std::uint32_t>(triangle);
-    const WallTriangle from = triangles(triangle);
-    for_each_side(rows, from, triangle < walls, [&](const WallSide& side) {
-      table.put_above(table.find(from.wall, side.edge.number), number,
+  /// Says of a triangle which edges it is above, or puts a critical edge among the rims: with each of the critical
+  /// triangles and of the places of the table, in any order.
+  KOKKOS_FUNCTION void finish(Offset i) const {
+    const auto number = static_cast<std::uint32_t>(i);
+    const bool is_critical = sink.is_critical(number);
+    if (!is_critical && sink.edges.at(sink.place_of(number)) == KeyTable::none) return;
+    const WallTriangle from = sink.triangle(number);
+    if (from.third < 0) {
+      rims(atomic_add(&sink.counts(0).rims, Offset(-1)) - 1) = {from.wall, from.high, from.low, sink.place_of(number)};
+      return;
+    }
+    for_each_side(rows, from, is_critical, [&](const WallSide& side) {
+      table.put_above(sink.edges.find(sink.keys(from.wall, side.edge.number)), number,
                       [this](std::uint32_t a, std::uint32_t b) { return is_less(a, b); });
     });
   }
@@ -145,13 +170,11 @@ struct GrownWalls {
   /// are more where it was taken.
   template <class Visit>
   KOKKOS_FUNCTION void climb(const WallRim& rim, const Visit& visit) const {
-    for (Id high = rim.high, low = rim.low;;) {
-      const std::uint64_t at = table.find(rim.wall, rows.edge(high, low).number);
-      const std::uint32_t triangle = table.least_above(at);
-      visit(triangle, table.are_several_above(at));
-      if (triangle < static_cast<std::uint32_t>(walls)) return;
-      high = triangles(triangle).high;
-      low = triangles(triangle).low;
+    for (std::uint32_t place = rim.place;;) {
+      const std::uint32_t triangle = table.least_above(place);
+      visit(triangle, table.are_several_above(place));
+      if (sink.is_critical(triangle)) return;
+      place = sink.place_of(triangle);
     }
   }
 
@@ -159,8 +182,8 @@ struct GrownWalls {
   /// Is one triangle before another, both by their numbers, written with their input vertices ascending?
   KOKKOS_FUNCTION bool is_less(std::uint32_t a, std::uint32_t b) const {
     Id first[3], second[3];
-    write(triangles(a), first);
-    write(triangles(b), second);
+    write(sink.triangle(a), first);
+    write(sink.triangle(b), second);
     for (int i = 0; i < 2; ++i) {
       if (first[i] != second[i]) return first[i] < second[i];
     }

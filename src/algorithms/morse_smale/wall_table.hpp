@@ -2,7 +2,9 @@
 
 #include <cstdint>
 
-#include <gale/base/key_table.hpp>
+#include <gale/base/atomic.hpp>
+#include <gale/base/memory.hpp>
+#include <gale/base/parallel.hpp>
 
 namespace gale::detail {
 
@@ -15,22 +17,17 @@ struct WallEdgeKeys {
   }
 };
 
-/// The edges of walls that have grown, for kernels: an edge of a wall has the least of the wall's triangles that it
-/// isn't paired with, by its number, and whether there are more of these. Copies share it.
+/// What is above the edges of walls that have grown, for kernels: an edge of a wall has the least of the wall's
+/// triangles that it isn't paired with, by its number, and whether there are more of these. Copies share it.
 class WallTable {
  public:
   WallTable() = default;
 
-  /// With edges that have no triangle yet. Throws OutOfMemory.
-  WallTable(const WorkerSpace& space, const KeyTable& edges, const WallEdgeKeys& keys)
-      : edges_(edges),
-        above_(allocate<Array<std::uint32_t, WorkerMemory>>("GALE::triangles_above", edges.places())),
-        keys_(keys) {
+  /// With edges at so many places that have no triangle yet. Throws OutOfMemory.
+  WallTable(const WorkerSpace& space, Offset places)
+      : above_(allocate<Array<std::uint32_t, WorkerMemory>>("GALE::triangles_above", places)) {
     fill("GALE::triangles_above", space, above_, no_triangle);
   }
-
-  /// The place of an edge of a wall, by the number that it has among all edges.
-  KOKKOS_FUNCTION std::uint64_t find(Id wall, Offset edge) const { return edges_.find(keys_(wall, edge)); }
 
   /// Says that a triangle is above the edge at a place. is_less(a, b) compares triangles by their numbers.
   template <class IsLess>
@@ -54,9 +51,7 @@ class WallTable {
  private:
   static constexpr std::uint32_t several = std::uint32_t(1) << 31, no_triangle = ~std::uint32_t(0);
 
-  KeyTable edges_;
   Array<std::uint32_t, WorkerMemory> above_;
-  WallEdgeKeys keys_;
 };
 
 }  // namespace gale::detail

@@ -31,6 +31,7 @@ class PairsOnRanks {
         threads_(threads),
         most_bytes_(most_bytes) {
     together(ranks_, [&] {
+      gradient.store().bring_pairs_to_host();
       places_.emplace(critical_);
       own_ = filtration_of(gradient, threads);
     });

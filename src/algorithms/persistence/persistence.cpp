@@ -140,6 +140,7 @@ PersistencePairs pairs_of(const DiscreteGradient& gradient, const CriticalPlaces
 PersistencePairs find_persistence_pairs(const DiscreteGradient& gradient, const SweepOptions& options) {
   detail::require_whole_mesh("persistence pairs", gradient.mesh(), ", which gather_gradient() brings together");
   const ThreadLimit limit(options.threads);
+  gradient.store().bring_pairs_to_host();
   const detail::CriticalPlaces places(gradient.critical());
   const bool forks = detail::has_forks(gradient);
   detail::ExtremumEnds ends{ends_of_edges(gradient, places), {}};

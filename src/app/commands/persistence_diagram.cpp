@@ -34,6 +34,7 @@ class FindPersistenceDiagram final : public AnalysisCommand {
 
   void analyse(const FieldOnMesh& on, Session& session, Computed& computed) const override {
     const double least = threshold_for(on.field);
+    on.order.bring_keys_to_host();
     const DiscreteGradient found = find_discrete_gradient(on.order, session.compute(structure_, "gradient"), &computed);
     const SweepOptions sweep = session.sweep("pairs");
     const GatheredPairs gathered =
