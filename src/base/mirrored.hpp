@@ -174,8 +174,8 @@ class Mirrored {
     return arrays_.template in<Memory>();
   }
 
-  /// Begins to copy it to the host, on a thread of its own, for those who will ask for it there soon: they wait for that
-  /// then. To be called when what made it is done.
+  /// Begins to copy it to the host, on a thread of its own, for those who will ask for it there soon: they wait for
+  /// that then. To be called when what made it is done.
   void bring_to_host() const { arrays_.bring_to_host(); }
 
   /// Whether it was made in a device's memory.

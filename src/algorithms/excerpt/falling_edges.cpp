@@ -156,8 +156,8 @@ int FallingEdges::reserve(Offset threads) {
     make_room_for(threads * most_found(1));
   }
   const auto room_of = [](const auto& array) { return static_cast<Offset>(array.extent(0)); };
-  const Offset room = std::min({found_.all.room() - counts_.all, room_of(found_.open) - counts_.open,
-                                room_of(found_.left) - counts_.left});
+  const Offset room = std::min(
+      {found_.all.room() - counts_.all, room_of(found_.open) - counts_.open, room_of(found_.left) - counts_.left});
   return static_cast<int>(std::min((room / threads - 1) / 2, Offset(most_steps)));
 }
 

@@ -172,8 +172,8 @@ class Connectors {
     return static_cast<int>(std::min((room / threads - 1) / 2, Offset(GrowWalls::most_steps)));
   }
 
-  /// Makes room for so many more edges and open triangles; where the table has to grow, for `later` edges besides, as it
-  /// takes time to move what is there.
+  /// Makes room for so many more edges and open triangles; where the table has to grow, for `later` edges besides, as
+  /// it takes time to move what is there.
   void make_room_for(Offset more, Offset first, Offset later) {
     constexpr Offset most_places = Offset(1) << 30, least = Offset(1) << 16;
     make_room(space_, "GALE::open_triangles", found_.open, counts_.open, counts_.open + more);
