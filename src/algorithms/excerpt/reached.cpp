@@ -169,7 +169,7 @@ class Reacher {
   }
 
   /// Goes on from a simplex, unless that was done: here, or where the rank is that knows how. Cells are known to be
-  /// another rank's when they are taken.
+  /// another rank's when they are taken. Which edges from which alone edges fall are known, EdgeFall says.
   void go(const LocalStep& step) {
     FoundFor& found = found_of(step.asker);
     const auto [a, b, c] = step.simplex;
@@ -179,7 +179,7 @@ class Reacher {
         if (!found.fallen_vertices.insert(static_cast<std::uint64_t>(a)).second) return;
         break;
       case StepKind::falling_edge:
-        if (!found.fallen_edges.insert(pair_key(a, b)).second) return;
+        if (!is_beyond_ && !found.fallen_edges.insert(pair_key(a, b)).second) return;
         break;
       case StepKind::rising_cell:
         if (found.risen_cells.insert(static_cast<std::uint64_t>(a)).second) here_.push_back(step);

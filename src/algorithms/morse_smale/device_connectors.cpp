@@ -199,13 +199,17 @@ class Connectors {
     });
     parallel_sort("GALE::sort_rims", rims.begin(), rims.end(),
                   [](const Keyed& a, const Keyed& b) { return a.first < b.first; });
-    std::vector<WallRim> sorted;
-    for (const auto& [key, rim] : rims) sorted.push_back(rim);
+    auto sorted = unwritten<WallRim>(rims.size());
+    parallel_for("GALE::sorted_rims", HostExecutionSpace(), counts_.rims, [&](Offset i) { sorted[i] = rims[i].second; });
     append_paths(space_, walls, sorted, paths);
-    for (const auto& [key, rim] : rims) {
-      paths.sources.push_back(key.second);
-      paths.destinations.push_back(first + key.first);
-    }
+    const std::size_t before = paths.sources.size();
+    paths.sources.resize(before + rims.size());
+    paths.destinations.resize(before + rims.size());
+    parallel_for("GALE::connector_ends", HostExecutionSpace(), counts_.rims, [&](Offset i) {
+      const auto [wall, edge] = rims[i].first;
+      paths.sources[before + i] = edge;
+      paths.destinations[before + i] = first + wall;
+    });
   }
 
   const WorkerSpace space_{};
