@@ -125,18 +125,17 @@ class TwoArrays {
       if (!on_device) return;
       begun([this] {
         try {
-          bringing = start_thread([this] { copy_meanwhile(); });
+          bringing = start_thread([this] { copy_on_a_thread(); });
         } catch (const Error&) {  // there are no more threads: who asks for the copy makes it
         }
       });
     }
 
-    void copy_meanwhile() {
-      const ThreadLimit others_have_work((host_threads() + 1) / 2);
+    void copy_on_a_thread() {
       try {
         copied([this] {
           const auto there = allocate<Array<T, HostMemory>>(worker.label(), worker.extent(0));
-          copy_what_is_made(there.data(), worker.data(), worker.extent(0) * sizeof(T));
+          copy_meanwhile(there.data(), worker.data(), worker.extent(0) * sizeof(T));
           host = there;
         });
       } catch (const Error&) {

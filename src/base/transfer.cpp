@@ -129,7 +129,11 @@ class CopyChannels {
     TakenChannels(CopyChannels& from, int wanted) : all(from) {
       wanted = std::min(wanted, most_of_one);
       std::unique_lock<std::mutex> lock(all.mutex_);
-      all.add_channels(static_cast<int>(all.channels_.size() - all.free_.size()) + wanted);
+      try {
+        all.add_channels(static_cast<int>(all.channels_.size() - all.free_.size()) + wanted);
+      } catch (const OutOfMemory&) {
+        if (all.channels_.empty()) throw;
+      }
       all.changed_.wait(lock, [&] { return !all.free_.empty(); });
       const auto first = all.free_.end() - std::min<std::ptrdiff_t>(wanted, std::ptrdiff_t(all.free_.size()));
       channels.assign(first, all.free_.end());
@@ -173,6 +177,25 @@ class CopyChannels {
   std::vector<const CopyChannel*> free_;
 };
 
+/// Copies from the device what is there.
+void copy_pieces(void* host, const void* device, std::size_t bytes) {
+  CopyChannels::instance().for_pieces(bytes, [&](const CopyChannel& channel, const auto& take) {
+    const auto begin = [&](int i, const Piece& piece) {
+      const auto& [memory, stream] = channel.halves[i];
+      if (piece.size > 0) stream.begin_copy(memory.data(), static_cast<const char*>(device) + piece.begin, piece.size);
+    };
+    Piece piece = take();
+    begin(0, piece);
+    for (int i = 0; piece.size > 0; i ^= 1) {
+      const Piece next = take();
+      begin(i ^ 1, next);
+      channel.halves[i].stream.wait();
+      std::memcpy(static_cast<char*>(host) + piece.begin, channel.halves[i].memory.data(), piece.size);
+      piece = next;
+    }
+  });
+}
+
 }  // namespace
 
 std::shared_ptr<void> detail::allocate_pinned_bytes(std::size_t bytes) {
@@ -211,25 +234,13 @@ void copy_to_device(void* device, const void* host, std::size_t bytes) {
 
 void copy_from_device(void* host, const void* device, std::size_t bytes) {
   detail::wait_for(WorkerSpace(), "GALE::copy");
-  detail::copy_what_is_made(host, device, bytes);
+  copy_pieces(host, device, bytes);
 }
 
-void detail::copy_what_is_made(void* host, const void* device, std::size_t bytes) {
-  CopyChannels::instance().for_pieces(bytes, [&](const CopyChannel& channel, const auto& take) {
-    const auto begin = [&](int i, const Piece& piece) {
-      const auto& [memory, stream] = channel.halves[i];
-      if (piece.size > 0) stream.begin_copy(memory.data(), static_cast<const char*>(device) + piece.begin, piece.size);
-    };
-    Piece piece = take();
-    begin(0, piece);
-    for (int i = 0; piece.size > 0; i ^= 1) {
-      const Piece next = take();
-      begin(i ^ 1, next);
-      channel.halves[i].stream.wait();
-      std::memcpy(static_cast<char*>(host) + piece.begin, channel.halves[i].memory.data(), piece.size);
-      piece = next;
-    }
-  });
+void detail::copy_meanwhile(void* host, const void* device, std::size_t bytes) {
+  constexpr int few = 4;
+  const ThreadLimit limit(few);
+  copy_pieces(host, device, bytes);
 }
 
 }  // namespace gale

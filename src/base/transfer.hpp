@@ -57,8 +57,9 @@ GALE_EXPORT void copy_from_device(void* host, const void* device, std::size_t by
 
 namespace detail {
 
-/// copy_from_device for what was made before, whatever kernels do meanwhile.
-GALE_EXPORT void copy_what_is_made(void* host, const void* device, std::size_t bytes);
+/// copy_from_device of what was made before, while kernels and other threads go on: by few threads, so that most cores
+/// are left to these.
+GALE_EXPORT void copy_meanwhile(void* host, const void* device, std::size_t bytes);
 
 }  // namespace detail
 

@@ -55,7 +55,7 @@ TEST(Transfer, of_many_threads_keeps_what_each_has_apart) {
     for (std::size_t i = 0; i < count; ++i) from(i) = static_cast<Id>(thread * count + i);
     const auto there = allocate<Array<Id, WorkerMemory>>("there", count);
     copy_to_device(there.data(), from.data(), count * sizeof(Id));
-    detail::copy_what_is_made(back.data(), there.data(), count * sizeof(Id));
+    detail::copy_meanwhile(back.data(), there.data(), count * sizeof(Id));
     for (std::size_t i = 0; i < count; ++i) different += back(i) != from(i);
   });
   EXPECT_EQ(different, 0u);

@@ -200,7 +200,8 @@ class Connectors {
     parallel_sort("GALE::sort_rims", rims.begin(), rims.end(),
                   [](const Keyed& a, const Keyed& b) { return a.first < b.first; });
     auto sorted = unwritten<WallRim>(rims.size());
-    parallel_for("GALE::sorted_rims", HostExecutionSpace(), counts_.rims, [&](Offset i) { sorted[i] = rims[i].second; });
+    parallel_for("GALE::sorted_rims", HostExecutionSpace(), counts_.rims,
+                 [&](Offset i) { sorted[i] = rims[i].second; });
     append_paths(space_, walls, sorted, paths);
     const std::size_t before = paths.sources.size();
     paths.sources.resize(before + rims.size());
