@@ -96,9 +96,9 @@ struct PathExits {
 void separatrices_on_ranks(int threads, PathExits down, PathExits up, MorseSmaleComplex& complex);
 
 /// Finds the saddle connectors in the descending walls of critical triangles by kernels, where these find the rows of a
-/// gradient: those that `descending_surfaces` finds, in its order. Walls are made together that have `most_together`
-/// triangles at most, a single one with any number: 2^26 take 4 to 6 GiB, beside the connectors. Throws OutOfMemory if
-/// one doesn't fit there.
+/// gradient: those that `descending_surfaces` finds, in its order. Walls are made together that have about
+/// `most_together` edges at most, a single one with any number: 2^26 take 4 to 8 GiB, beside the connectors. Throws
+/// OutOfMemory if one doesn't fit there.
 Separatrices<TriangleVertices> device_connectors(const WallRows& rows, const std::vector<TriangleVertices>& critical,
                                                  const CriticalPlaces& places, Offset most_together = Offset(1) << 26);
 
