@@ -30,7 +30,7 @@ class KeyTable {
 
   KOKKOS_FUNCTION Offset places() const { return static_cast<Offset>(keys_.extent(0)); }
 
-  /// So many keys leave some places to spare, which keeps searches short.
+  /// How many keys it has places for, with some to spare that keep searches short.
   Offset room() const { return 7 * (places() / 10); }
 
   /// A power of two that has room for so many keys.
