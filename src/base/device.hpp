@@ -40,13 +40,8 @@ class CopyStream {
   CopyStream(CopyStream&& other) noexcept;
   CopyStream& operator=(CopyStream&&) = delete;
 
-  /// Copies between the memories of host and device, and waits. Throws gale::Error if that fails.
-  void copy(void* to, const void* from, std::size_t bytes) const {
-    begin_copy(to, from, bytes);
-    wait();
-  }
-
-  /// Begins such a copy, which is done when wait() returns. Both throw gale::Error if it fails.
+  /// Begins a copy between the memories of host and device, which is done when wait() returns. Both throw gale::Error
+  /// if it fails.
   void begin_copy(void* to, const void* from, std::size_t bytes) const;
   void wait() const;
 

@@ -31,7 +31,7 @@ class KeyTable {
   KOKKOS_FUNCTION Offset places() const { return static_cast<Offset>(keys_.extent(0)); }
 
   /// How many keys it has places for, with some to spare that keep searches short.
-  Offset room() const { return 7 * (places() / 10); }
+  Offset room() const { return 7 * places() / 10; }
 
   /// A power of two that has room for so many keys.
   static Offset places_for(Offset keys) { return Offset(1) << bits_for(2 * keys); }

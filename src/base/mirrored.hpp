@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <exception>
 #include <memory>
 #include <mutex>
 #include <thread>
@@ -126,7 +127,7 @@ class TwoArrays {
       begun([this] {
         try {
           bringing = start_thread([this] { copy_on_a_thread(); });
-        } catch (const Error&) {  // there are no more threads: who asks for the copy makes it
+        } catch (const std::exception&) {  // there are no more threads: who asks for the copy makes it
         }
       });
     }
@@ -138,7 +139,7 @@ class TwoArrays {
           copy_meanwhile(there.data(), worker.data(), worker.extent(0) * sizeof(T));
           host = there;
         });
-      } catch (const Error&) {
+      } catch (const std::exception&) {
         // Who asks for the copy tries again, and hears of it.
       }
     }
@@ -174,7 +175,8 @@ class Mirrored {
   }
 
   /// Begins to copy it to the host, on a thread of its own, for those who will ask for it there soon: they wait for
-  /// that then. To be called when what made it is done.
+  /// that then. To be called when what made it is done. That thread takes no notice of limits and requests of this one;
+  /// the last copy of this, when it is destroyed, waits for it.
   void bring_to_host() const { arrays_.bring_to_host(); }
 
   /// Whether it was made in a device's memory.

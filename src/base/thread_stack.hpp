@@ -9,7 +9,10 @@ namespace gale::detail {
 template <class T, int capacity>
 class ThreadStack {
  public:
+  /// To be asked before pop().
   KOKKOS_FUNCTION bool is_empty() const { return size_ == 0; }
+
+  /// Adds an entry, for which there has to be room; takes out the latest.
   KOKKOS_FUNCTION void push(const T& entry) { entries_[size_++] = entry; }
   KOKKOS_FUNCTION T pop() { return entries_[--size_]; }
 

@@ -57,8 +57,8 @@ void touch(void* memory, std::size_t size) {
           }};
 }
 
-/// A thread fills or empties one half of its chunk while the other travels. Halves fit a core's cache, so that what is
-/// there costs no bandwidth of the host's memory.
+/// A thread fills or empties one half of its pinned memory while the other travels. Halves fit a core's cache, so that
+/// what is there costs no bandwidth of the host's memory.
 constexpr std::size_t half_bytes = std::size_t(1) << 20;
 
 /// One thread's way to the device and back, and the pinned memory that it goes through.
@@ -89,6 +89,7 @@ class CopyChannels {
     return channels;
   }
 
+  /// Has there be channels for a copy on so many threads, and for another beside it.
   void prepare(int threads) {
     const std::lock_guard<std::mutex> lock(mutex_);
     add_channels(std::min(threads, most_of_one) + most_channels - most_of_one);
@@ -131,7 +132,7 @@ class CopyChannels {
       std::unique_lock<std::mutex> lock(all.mutex_);
       try {
         all.add_channels(static_cast<int>(all.channels_.size() - all.free_.size()) + wanted);
-      } catch (const OutOfMemory&) {
+      } catch (const Error&) {
         if (all.channels_.empty()) throw;
       }
       all.changed_.wait(lock, [&] { return !all.free_.empty(); });
@@ -147,7 +148,7 @@ class CopyChannels {
     TakenChannels(const TakenChannels&) = delete;
     TakenChannels& operator=(const TakenChannels&) = delete;
 
-    CopyChannels& all;
+    CopyChannels& all;  ///< where they go back to
     std::vector<const CopyChannel*> channels;
   };
 
@@ -157,6 +158,7 @@ class CopyChannels {
     const int missing = std::min(count, most_channels) - static_cast<int>(channels_.size());
     if (missing <= 0) return;
     use_device();
+    free_.reserve(most_channels);
     if (channels_.empty()) {
       Kokkos::push_finalize_hook([this] {
         free_.clear();

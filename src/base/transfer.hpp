@@ -48,8 +48,8 @@ class PinnedArray {
   View view_;
 };
 
-/// Copies `bytes` bytes between ordinary host memory and the device, at the bandwidth of pinned memory: all host
-/// threads copy through pinned chunks of their own. Waits first for what is enqueued on WorkerSpace(), which may have
+/// Copies `bytes` bytes between ordinary host memory and the device, at the bandwidth of pinned memory: up to 16
+/// host threads copy through 2 MiB each. Waits first for what is enqueued on WorkerSpace(), which may have
 /// made the data, and returns when it is done. Calls on several threads share the way. Without a device both are host
 /// memory.
 GALE_EXPORT void copy_to_device(void* device, const void* host, std::size_t bytes);
@@ -64,11 +64,11 @@ GALE_EXPORT void copy_meanwhile(void* host, const void* device, std::size_t byte
 }  // namespace detail
 
 /// Copies bytes that write(to, begin, size) puts at `to` as they are wanted: `size` of them from the begin-th on,
-/// by all host threads; both are multiples of 1 MiB, but for the last size.
+/// on the threads of a copy; both are multiples of 1 MiB, but for the last size.
 GALE_EXPORT void write_to_device(void* device, std::size_t bytes,
                                  const std::function<void(char* to, std::size_t begin, std::size_t size)>& write);
 
-/// Takes the pinned memory of these for so many threads, which else the first copy does.
+/// Takes the pinned memory of these for so many threads, and for some of a copy beside, which else the first copies do.
 GALE_EXPORT void prepare_copies(int threads);
 
 /// The contents of a View in `Memory`, the host's or the workers': the View itself if they can be read there already,

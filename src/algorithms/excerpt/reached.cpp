@@ -169,7 +169,8 @@ class Reacher {
   }
 
   /// Goes on from a simplex, unless that was done: here, or where the rank is that knows how. Cells are known to be
-  /// another rank's when they are taken. Which edges from which alone edges fall are known, EdgeFall says.
+  /// another rank's when they are taken. Edges from which alone edges fall may come several times: EdgeFall keeps them
+  /// apart.
   void go(const LocalStep& step) {
     FoundFor& found = found_of(step.asker);
     const auto [a, b, c] = step.simplex;

@@ -10,6 +10,7 @@
 #include <gale/algorithms/morse_smale/gathered_separatrices.hpp>
 #include <gale/algorithms/morse_smale/parts.hpp>
 #include <gale/base/error.hpp>
+#include <gale/base/sort.hpp>
 
 namespace gale::detail {
 
@@ -149,6 +150,8 @@ void ConnectorsHere::follow_here(const DiscreteGradient& gradient, const Critica
   for (const auto& tracer : found_->tracers) {
     if (tracer) exits_.insert(exits_.end(), tracer->exits.begin(), tracer->exits.end());
   }
+  parallel_sort("GALE::sort_exits", exits_.begin(), exits_.end());  // walls of several threads have some in common
+  exits_.erase(std::unique(exits_.begin(), exits_.end()), exits_.end());
 }
 
 ConnectorsHere::~ConnectorsHere() = default;

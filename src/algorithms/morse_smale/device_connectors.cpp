@@ -110,7 +110,7 @@ class Connectors {
   /// Appends those of some critical triangles: in halves, if their walls together are too many.
   void add(Id begin, Id end) {
     const Id size = end - begin;
-    if (size <= Offset(1) << std::min(63 - found_.keys.bits, 30)) {  // walls that keys can number
+    if (size < Offset(1) << std::min(63 - found_.keys.bits, 30)) {  // walls that keys can number
       try {
         add_paths(begin, grow(begin, size, size > 1 ? most_together_ : WallTable::most_triangles));
         return;
@@ -131,7 +131,7 @@ class Connectors {
       stop_if_asked();
       if (counts_.edges > most_edges) throw OutOfMemory("walls of more than " + std::to_string(most_edges) + " edges");
       const Offset open = counts_.open - first;
-      const int steps = reserve(first, open);
+      const int steps = reserve(first, open, most_edges);
       parallel_for("GALE::grow_walls", space_, open, GrowWalls{rows_, found_, first, steps});
       Kokkos::deep_copy(space_, Kokkos::View<WallCounts*, HostMemory, Kokkos::MemoryUnmanaged>(&counts_, 1),
                         found_.counts);
@@ -160,11 +160,14 @@ class Connectors {
   }
 
   /// Makes room for what a launch of so many threads finds in half of the steps that it may take, where there is so
-  /// much, else in one. Returns how many steps there is room for then. Throws OutOfMemory.
-  int reserve(Offset first, Offset threads) {
-    constexpr int few = GrowWalls::most_steps / 2;
+  /// much, else in one, as where these were more edges than there may be. Returns how many steps there is room for
+  /// then. Throws OutOfMemory.
+  int reserve(Offset first, Offset threads, Offset most_edges) {
+    const Offset in_some = threads * GrowWalls::most_found(GrowWalls::most_steps / 2);
+    const Offset later = most_edges - counts_.edges - in_some;
     try {
-      make_room_for(threads * GrowWalls::most_found(few), first, counts_.edges);
+      if (later < 0) throw OutOfMemory("too many walls side by side");
+      make_room_for(in_some, first, std::min(counts_.edges, later));
     } catch (const OutOfMemory&) {
       make_room_for(threads * GrowWalls::most_found(1), first, 0);
     }

@@ -40,7 +40,7 @@ struct WallCounts {
 
 /// Where the kernels that make walls grow put what they find. Copies share it.
 struct WallSink {
-  Id walls;
+  Id walls;        ///< as many as critical triangles
   KeyTable edges;  ///< of walls, by `keys`
   WallEdgeKeys keys;
   InWorkers<WallTriangle> critical;   ///< by wall
