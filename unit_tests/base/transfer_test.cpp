@@ -1,9 +1,10 @@
 #include <atomic>
 #include <numeric>
+#include <thread>
+#include <vector>
 
 #include <gtest/gtest.h>
 
-#include <gale/base/threads.hpp>
 #include <gale/base/transfer.hpp>
 #include <gale/base/types.hpp>
 
@@ -48,16 +49,20 @@ TEST(Transfer, goes_in_pieces_through_pinned_memory) {
 }
 
 TEST(Transfer, of_many_threads_keeps_what_each_has_apart) {
-  constexpr std::size_t count = 700'000;
+  constexpr std::size_t count = 700'000, bytes = count * sizeof(Id);
   std::atomic<std::size_t> different{0};
-  on_threads(24, [&](int thread) {
-    const Array<Id, HostMemory> from("from", count), back("back", count);
-    for (std::size_t i = 0; i < count; ++i) from(i) = static_cast<Id>(thread * count + i);
+  const auto copy = [&](int thread) {
+    const auto from = allocate<Array<Id, HostMemory>>("from", count);
+    const auto back = allocate<Array<Id, HostMemory>>("back", count);
     const auto there = allocate<Array<Id, WorkerMemory>>("there", count);
-    copy_to_device(there.data(), from.data(), count * sizeof(Id));
-    detail::copy_meanwhile(back.data(), there.data(), count * sizeof(Id));
+    for (std::size_t i = 0; i < count; ++i) from(i) = static_cast<Id>(thread * count + i);
+    copy_to_device(there.data(), from.data(), bytes);
+    detail::copy_meanwhile(back.data(), there.data(), bytes);
     for (std::size_t i = 0; i < count; ++i) different += back(i) != from(i);
-  });
+  };
+  std::vector<std::thread> threads;
+  for (int thread = 0; thread < 24; ++thread) threads.emplace_back(copy, thread);
+  for (std::thread& thread : threads) thread.join();
   EXPECT_EQ(different, 0u);
 }
 

@@ -164,15 +164,20 @@ class Connectors {
   /// then. Throws OutOfMemory.
   int reserve(Offset first, Offset threads, Offset most_edges) {
     const Offset in_some = threads * GrowWalls::most_found(GrowWalls::most_steps / 2);
-    const Offset later = most_edges - counts_.edges - in_some;
-    try {
-      if (later < 0) throw OutOfMemory("too many walls side by side");
-      make_room_for(in_some, first, std::min(counts_.edges, later));
-    } catch (const OutOfMemory&) {
+    const Offset later = std::min(counts_.edges, most_edges - counts_.edges - in_some);
+    if (later < 0 || !has_made_room_for(in_some, first, later))
       make_room_for(threads * GrowWalls::most_found(1), first, 0);
-    }
     const Offset room = std::min(found_.edges.room() - counts_.edges, Offset(found_.open.extent(0)) - counts_.open);
     return static_cast<int>(std::min((room / threads - 1) / 2, Offset(GrowWalls::most_steps)));
+  }
+
+  bool has_made_room_for(Offset more, Offset first, Offset later) {
+    try {
+      make_room_for(more, first, later);
+      return true;
+    } catch (const OutOfMemory&) {
+      return false;
+    }
   }
 
   /// Makes room for so many more edges and open triangles; where the table has to grow, for `later` edges besides, as
