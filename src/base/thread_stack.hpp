@@ -1,9 +1,25 @@
 #pragma once
 
+#include <algorithm>
+
 #include <gale/base/atomic.hpp>
 #include <gale/base/memory.hpp>
 
 namespace gale::detail {
+
+/// How many steps each thread of a launch takes: so many at most, that no launch waits for the longest way. A step
+/// finds two entries at most, a first one three, and a thread leaves as many at most to come back to.
+struct StepsOfLaunch {
+  static constexpr int most = 16;
+
+  static constexpr Offset found_in(int steps) { return 2 * Offset(steps) + 1; }
+
+  /// The most for which each of so many threads finds no more than there is room for in all: 1 or more, if that is
+  /// room for one step.
+  static int in(Offset room, Offset threads) {
+    return static_cast<int>(std::min((room / threads - 1) / 2, Offset(most)));
+  }
+};
 
 /// What a thread of a kernel has to come back to, the latest first: up to `capacity` entries, in its own memory.
 template <class T, int capacity>

@@ -10,12 +10,6 @@ namespace gale::detail {
 
 namespace {
 
-/// Steps that a thread takes in one launch at most, so that edges that were left open don't wait for the longest way.
-constexpr int most_steps = 16;
-
-/// A thread finds so many edges at most, and leaves as many open at most: a first one, and two sides in each step.
-constexpr Offset most_found(int steps) { return 2 * Offset(steps) + 1; }
-
 /// What stands for no edge to go on from.
 KOKKOS_FUNCTION FallenEdge no_edge() { return {no_id, no_id, no_id}; }
 
@@ -25,7 +19,7 @@ struct FallFrom {
   EdgesInKernels edges;
   Array<const std::uint64_t, WorkerMemory> keys;
   FallenEdges found;
-  int steps;  ///< 1 to most_steps
+  int steps;  ///< of each thread
 
   /// An edge, and what it is paired with: no_id where another rank knows.
   KOKKOS_FUNCTION FallenEdge look_at(Id high, Id low) const {
@@ -47,7 +41,7 @@ struct FallFrom {
 
   /// Goes on from an edge, unless it is none; `count` were found before.
   KOKKOS_FUNCTION void go_on(FallenEdge edge, Offset count) const {
-    ThreadStack<FallenEdge, most_steps + 1> open;
+    ThreadStack<FallenEdge, StepsOfLaunch::most + 1> open;
     for (int step = 0; step < steps && edge.high != no_id; ++step) {
       const FallenEdge sides[] = {side(edge.high, edge.third), side(edge.low, edge.third)};
       const FallenEdge one = come_to(sides[0], count), other = come_to(sides[1], count);
@@ -151,14 +145,14 @@ std::vector<std::array<Id, 3>> FallingEdges::passed() const {
 /// else in one. Returns how many steps there is room for then. Throws OutOfMemory.
 int FallingEdges::reserve(Offset threads) {
   try {
-    make_room_for(threads * most_found(most_steps / 2));
+    make_room_for(threads * StepsOfLaunch::found_in(StepsOfLaunch::most / 2));
   } catch (const OutOfMemory&) {
-    make_room_for(threads * most_found(1));
+    make_room_for(threads * StepsOfLaunch::found_in(1));
   }
   const auto room_of = [](const auto& array) { return static_cast<Offset>(array.extent(0)); };
   const Offset room = std::min(
       {found_.all.room() - counts_.all, room_of(found_.open) - counts_.open, room_of(found_.left) - counts_.left});
-  return static_cast<int>(std::min((room / threads - 1) / 2, Offset(most_steps)));
+  return StepsOfLaunch::in(room, threads);
 }
 
 void FallingEdges::make_room_for(Offset more) {

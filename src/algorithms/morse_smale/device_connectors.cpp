@@ -163,12 +163,12 @@ class Connectors {
   /// much, else in one, as where these were more edges than there may be. Returns how many steps there is room for
   /// then. Throws OutOfMemory.
   int reserve(Offset first, Offset threads, Offset most_edges) {
-    const Offset in_some = threads * GrowWalls::most_found(GrowWalls::most_steps / 2);
+    const Offset in_some = threads * StepsOfLaunch::found_in(StepsOfLaunch::most / 2);
     const Offset later = std::min(counts_.edges, most_edges - counts_.edges - in_some);
     if (later < 0 || !has_made_room_for(in_some, first, later))
-      make_room_for(threads * GrowWalls::most_found(1), first, 0);
+      make_room_for(threads * StepsOfLaunch::found_in(1), first, 0);
     const Offset room = std::min(found_.edges.room() - counts_.edges, Offset(found_.open.extent(0)) - counts_.open);
-    return static_cast<int>(std::min((room / threads - 1) / 2, Offset(GrowWalls::most_steps)));
+    return StepsOfLaunch::in(room, threads);
   }
 
   bool has_made_room_for(Offset more, Offset first, Offset later) {

@@ -90,16 +90,10 @@ struct GrowWalls {
   WallRows rows;
   WallSink sink;
   Offset first;  ///< of `open`, in this launch
-  int steps;     ///< 1 to most_steps
-
-  static constexpr int most_steps = 16;
-
-  /// A thread finds so many edges at most, and leaves as many triangles open at most: two in each step, where it comes
-  /// from an edge, three in a first one, where a triangle is critical.
-  static constexpr Offset most_found(int steps) { return 2 * Offset(steps) + 1; }
+  int steps;     ///< of each thread
 
   KOKKOS_FUNCTION void operator()(Offset i) const {
-    ThreadStack<std::uint32_t, most_steps + 2> open;
+    ThreadStack<std::uint32_t, StepsOfLaunch::most + 2> open;
     WallCounts found;
     std::uint32_t number = sink.open(first + i);
     WallTriangle triangle = sink.triangle(number);
@@ -107,11 +101,12 @@ struct GrowWalls {
       std::uint32_t next = none;
       WallTriangle next_triangle{};
       for_each_side(rows, triangle, sink.is_critical(number), [&](const WallSide& side) {
-        const std::uint32_t there = come_to({side.high, side.low, side.edge.third, triangle.wall}, side, found);
+        const WallTriangle behind{side.high, side.low, side.edge.third, triangle.wall};
+        const std::uint32_t there = come_to(behind, side.edge.number, found);
         if (there == none) return;
         if (next != none) open.push(next);
-        next_triangle = {side.high, side.low, side.edge.third, triangle.wall};
         next = there;
+        next_triangle = behind;
       });
       if (next == none && !open.is_empty()) {
         next = open.pop();
@@ -129,10 +124,10 @@ struct GrowWalls {
  private:
   static constexpr std::uint32_t none = ~std::uint32_t(0);
 
-  /// Comes to what is behind a side: the number of a triangle that the wall grows on from, or none.
-  KOKKOS_FUNCTION std::uint32_t come_to(const WallTriangle& behind, const WallSide& side, WallCounts& found) const {
+  /// Comes to what is behind an edge, by its number: the number of a triangle that the wall grows on from, or none.
+  KOKKOS_FUNCTION std::uint32_t come_to(const WallTriangle& behind, Offset edge, WallCounts& found) const {
     bool is_new = false;
-    const std::uint64_t place = sink.edges.insert(sink.keys(behind.wall, side.edge.number), is_new);
+    const std::uint64_t place = sink.edges.insert(sink.keys(behind.wall, edge), is_new);
     if (!is_new) return none;
     sink.triangles(place) = behind;
     ++found.edges;
