@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <tuple>
 #include <type_traits>
 
 #include <gale/algorithms/excerpt/found_for_ranks.hpp>
@@ -12,14 +13,7 @@ namespace {
 /// Calls visit(list) for each list of some.
 template <class Lists, class Visit>
 void for_each_list_of(Lists& lists, const Visit& visit) {
-  visit(lists.vertices);
-  visit(lists.cells);
-  visit(lists.vertex_steps);
-  visit(lists.edges);
-  visit(lists.cell_steps);
-  visit(lists.cell_forks);
-  visit(lists.critical_triangles);
-  visit(lists.critical_stars);
+  std::apply([&](auto&... list) { (visit(list), ...); }, lists.all());
 }
 
 /// Calls visit(vertex) for each vertex in lists that call them by ids, on all threads.
@@ -74,9 +68,9 @@ void FoundForRanks::number_vertices(FoundFor& found) const {
   for_each_vertex_of(found, [&](Id& vertex) { vertex = reached[vertex]; });
 }
 
-std::vector<std::int64_t> FoundForRanks::bytes() const {
+std::vector<std::int64_t> FoundForRanks::bytes() {
   std::vector<std::int64_t> bytes;
-  for (const FoundFor& found : found_) {
+  for (FoundFor& found : found_) {
     std::int64_t all = 0;
     for_each_list_of(found, [&](auto& list) { all += static_cast<std::int64_t>(list.size() * sizeof(list[0])); });
     bytes.push_back(all);
@@ -86,29 +80,29 @@ std::vector<std::int64_t> FoundForRanks::bytes() const {
 
 Reached FoundForRanks::send() {
   const Ranks& ranks = order_.mesh().exchange().ranks();
-  Reached reached;
-  const auto send_list = [&](auto from, auto& to) {
-    using T = typename std::decay_t<decltype(found_[0].*from)>::value_type;
-    EntriesByRank<T> sent;
-    together(ranks, [&] {
+  Reached sent;
+  together(ranks, [&] {
+    const auto join = [&](auto from, auto& to) {
       std::vector<std::int64_t> counts;
       for (const FoundFor& found : found_) counts.push_back(static_cast<std::int64_t>((found.*from).size()));
-      sent = room_by_rank<T>("GALE::reached", counts);
+      to = room_by_rank<typename std::decay_t<decltype(found_[0].*from)>::value_type>("GALE::reached", counts);
       for (std::size_t r = 0; r < found_.size(); ++r) {
-        std::copy((found_[r].*from).begin(), (found_[r].*from).end(), sent.entries.data() + sent.begin[r]);
+        std::copy((found_[r].*from).begin(), (found_[r].*from).end(), to.entries.data() + to.begin[r]);
         found_[r].*from = {};
       }
-    });
-    to = exchange_packed(ranks, "GALE::received_reached", sent);
-  };
-  send_list(&FoundFor::vertices, reached.vertices);
-  send_list(&FoundFor::cells, reached.cells);
-  send_list(&FoundFor::vertex_steps, reached.vertex_steps);
-  send_list(&FoundFor::edges, reached.edges);
-  send_list(&FoundFor::cell_steps, reached.cell_steps);
-  send_list(&FoundFor::cell_forks, reached.cell_forks);
-  send_list(&FoundFor::critical_triangles, reached.critical_triangles);
-  send_list(&FoundFor::critical_stars, reached.critical_stars);
+    };
+    join(&FoundFor::vertices, sent.vertices);
+    join(&FoundFor::cells, sent.cells);
+    join(&FoundFor::vertex_steps, sent.vertex_steps);
+    join(&FoundFor::edges, sent.edges);
+    join(&FoundFor::cell_steps, sent.cell_steps);
+    join(&FoundFor::cell_forks, sent.cell_forks);
+    join(&FoundFor::critical_triangles, sent.critical_triangles);
+    join(&FoundFor::critical_stars, sent.critical_stars);
+  });
+  Reached reached;
+  reached.all() = std::apply(
+      [&](const auto&... lists) { return exchange_lists(ranks, "GALE::received_reached", lists...); }, sent.all());
   return reached;
 }
 

@@ -38,7 +38,7 @@ class FoundForRanks {
   void number_vertices();
 
   /// How many bytes were found for each rank, once vertices are numbered.
-  std::vector<std::int64_t> bytes() const;
+  std::vector<std::int64_t> bytes();
 
   /// Sends it to those who have asked. Collective.
   Reached send();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <tuple>
 #include <vector>
 
 #include <gale/algorithms/discrete_gradient.hpp>
@@ -48,6 +49,10 @@ struct ReachedLists {
   List<std::array<Id, 2>> cell_forks;          ///< a cell, and one more that follows it
   List<std::array<Id, 3>> critical_triangles;  ///< from the highest vertex to the lowest
   List<std::array<Id, 4>> critical_stars;      ///< a critical facet of cells, an edge with no_id behind it, and a cell
+
+  auto all() {
+    return std::tie(vertices, cells, vertex_steps, edges, cell_steps, cell_forks, critical_triangles, critical_stars);
+  }
 };
 
 /// What one rank has received, by the rank that found it: places are those among what that one sent.

@@ -100,13 +100,16 @@ struct SideOnRanks {
         simplices(order, next, extrema) {
     if (!is_wanted) return;
     std::vector<Id> others;
+    GlobalIds names;
     together(order.mesh().exchange().ranks(), [&] {
+      names = tabulated<GlobalId>("GALE::extremum_ids", static_cast<Offset>(extrema.size()),
+                                  [&](Offset i) { return simplices.global(extrema[i]); });
       const Interval owned = order.mesh().owned_vertices();
       others = collected<Id>("GALE::meetings_elsewhere", meetings.size(), [&](Offset i, const auto& add) {
         if (!owned.has(meetings[i].other)) add(meetings[i].other);
       });
     });
-    paths.emplace(simplices, others);
+    paths.emplace(simplices, names, others);
   }
 
   /// The extrema at which the paths of some vertices end; where paths aren't followed an extremum itself, -1 for
@@ -116,7 +119,7 @@ struct SideOnRanks {
     if (paths) {
       const std::vector<Id> here = paths->ends_of(vertices);
       parallel_for("GALE::ends_on_side", HostExecutionSpace(), ends.size(),
-                   [&](Offset i) { ends[i] = paths->final_stop(here[i]).id; });
+                   [&](Offset i) { ends[i] = paths->final_name(here[i]); });
       return ends;
     }
     std::vector<Id> sorted = extrema;
@@ -132,8 +135,8 @@ struct SideOnRanks {
   template <class PlaceOf>
   Array<const Id, HostMemory> places_of_ends(const PlaceOf& place_of) const {
     return tabulated<Id>("GALE::places_of_ends", paths->ends(), [&](Offset end) {
-      const PathStop stop = paths->final_stop(static_cast<Id>(end));
-      return stop.rank == PathStop::critical ? place_of(stop.id) : no_id;
+      const GlobalId extremum = paths->final_name(static_cast<Id>(end));
+      return extremum >= 0 ? place_of(extremum) : no_id;
     });
   }
 

@@ -6,9 +6,11 @@
 #include <gale/algorithms/morse_smale/jump.hpp>
 #include <gale/algorithms/morse_smale/parts.hpp>
 #include <gale/algorithms/morse_smale/paths_on_ranks.hpp>
+#include <gale/base/error.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/transfer.hpp>
 #include <gale/mesh/exchange/exchange_plan.hpp>
+#include <gale/mesh/exchange/places.hpp>
 
 namespace gale::detail {
 
@@ -165,6 +167,21 @@ OwnManifolds own_manifolds(const Space& space, const PathsOnRanks& paths, const 
           }};
 }
 
+/// The places of a rank's critical simplices among those of all ranks, by global ids. Collective.
+Array<GlobalId, HostMemory> places_among_all(const PathSimplices& simplices) {
+  const Ranks& ranks = simplices.mesh().exchange().ranks();
+  const std::vector<Id>& critical = simplices.critical();
+  Array<SimplexKey, HostMemory> keys;
+  together(ranks, [&] {
+    keys = tabulated<SimplexKey>("GALE::critical_keys", static_cast<Offset>(critical.size()), [&](Offset i) {
+      return SimplexKey{simplices.global(critical[i]), 0, 0};
+    });
+  });
+  const PlacesOfAll found = places_of_keys(ranks, keys);
+  together(ranks, [&] { require_ids("minima or maxima of all ranks", found.count); });
+  return found.places;
+}
+
 /// The places among those of all ranks where the paths of vertices end. Collective.
 Mirrored<Id> manifolds_on_ranks(const DiscreteGradient& gradient, PathSimplices::Kind kind, PathExits* exits) {
   const auto simplices = PathSimplices::make(gradient, kind);
@@ -178,12 +195,17 @@ Mirrored<Id> manifolds_on_ranks(const DiscreteGradient& gradient, PathSimplices:
     elsewhere = in_worker_or_host_space(on_device,
                                         [&](const auto& space) { return starts_elsewhere(space, *simplices, starts); });
   });
-  const PathsOnRanks paths(*simplices, elsewhere);
+  const PathsOnRanks paths(*simplices, places_among_all(*simplices), elsewhere);
   if (exits != nullptr) {
     together(ranks, [&] { exits->exits = paths.exits_from(exits->starts.simplices); });
     exits->are_known = true;
   }
-  return ends_of_vertices(paths, starts, paths.places_of_ends());
+  Array<const Id, HostMemory> places;
+  together(ranks, [&] {
+    places = tabulated<Id>("GALE::places_of_ends", paths.ends(),
+                           [&](Offset end) { return static_cast<Id>(paths.final_name(static_cast<Id>(end))); });
+  });
+  return ends_of_vertices(paths, starts, places);
 }
 
 Mirrored<Id> manifolds(const DiscreteGradient& gradient, PathSimplices::Kind kind, PathExits* exits) {

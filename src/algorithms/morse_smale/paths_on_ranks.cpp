@@ -5,10 +5,8 @@
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/morse_smale/paths_on_ranks.hpp>
 #include <gale/base/atomic.hpp>
-#include <gale/base/error.hpp>
 #include <gale/base/memory.hpp>
 #include <gale/mesh/exchange/messages.hpp>
-#include <gale/mesh/exchange/places.hpp>
 
 namespace gale::detail {
 
@@ -187,37 +185,22 @@ std::vector<int> PathSimplices::owners(const std::vector<Id>& simplices) const {
   return owners;
 }
 
-PathsOnRanks::PathsOnRanks(const PathSimplices& simplices, const std::vector<Id>& others)
-    : simplices_(simplices), criticals_(static_cast<Id>(simplices.critical().size())) {
-  together(ranks(), [&] { find_exits(others); });
+PathsOnRanks::PathsOnRanks(const PathSimplices& simplices, const Array<const std::int64_t, HostMemory>& names,
+                           const std::vector<Id>& others)
+    : simplices_(simplices), criticals_(static_cast<Id>(simplices.critical().size())), names_(names) {
+  Array<Id, HostMemory> reached;
+  together(ranks(), [&] {
+    const PathsHere here = in_worker_or_host_space(
+        simplices_.successors().on_device(), [&](const auto& space) { return follow_here(space, simplices_, others); });
+    exits_ = here.exits;
+    ends_ = here.ends;
+    reached = here.reached;
+    stops_ = allocate<Array<PathStop, HostMemory>>("GALE::path_stops", exits_.extent(0));
+    fill("GALE::path_stops", HostExecutionSpace(), stops_, PathStop());
+  });
+  ask_owners(reached);
   while (jump()) {
   }
-}
-
-void PathsOnRanks::find_exits(const std::vector<Id>& others) {
-  const PathsHere here = in_worker_or_host_space(
-      simplices_.successors().on_device(), [&](const auto& space) { return follow_here(space, simplices_, others); });
-  exits_ = here.exits;
-  ends_ = here.ends;
-  stops_ = allocate<Array<PathStop, HostMemory>>("GALE::path_stops", exits_.extent(0));
-  fill("GALE::path_stops", HostExecutionSpace(), stops_, PathStop());
-  begin_at(here.reached);
-}
-
-/// Begins with some exits, by their places: their paths go on from there on the ranks that own them.
-void PathsOnRanks::begin_at(const Array<Id, HostMemory>& reached) {
-  const Offset count = reached.extent(0);
-  std::vector<Id> simplices(count);
-  parallel_for("GALE::open_exits", HostExecutionSpace(), count, [&](Offset i) { simplices[i] = exits_(reached(i)); });
-  const std::vector<int> owners = simplices_.owners(simplices);
-  const auto by_id = distinct_ids(
-      tabulated<GlobalId>("GALE::ids_of_exits", count, [&](Offset i) { return simplices_.global(simplices[i]); }));
-  open_.resize(count);
-  parallel_for("GALE::first_stops", HostExecutionSpace(), count, [&](Offset i) {
-    const Id place = by_id.places(i);
-    open_[i] = reached(place);
-    stops_(open_[i]) = {owners[place], by_id.ids(i)};
-  });
 }
 
 std::vector<Id> PathsOnRanks::ends_of(const std::vector<Id>& simplices) const {
@@ -235,59 +218,55 @@ std::vector<Id> PathsOnRanks::exits_from(const std::vector<Id>& simplices) const
   return found;
 }
 
-PathStop PathsOnRanks::final_stop(Id end) const {
+/// Where a path that ends here so is.
+PathStop PathsOnRanks::stop_here(Id end) const {
   if (end == no_id) return {};
-  if (end >= criticals_) return stops_(end - criticals_);
-  return {PathStop::critical, simplices_.global(simplices_.critical()[end])};
+  if (end < criticals_) return {PathStop::critical, names_(end)};
+  return {ranks().rank(), end - criticals_};
 }
 
-Array<const Id, HostMemory> PathsOnRanks::places_of_ends() const {
-  GlobalIndex different;  // critical simplices where paths end
-  Array<SimplexKey, HostMemory> keys;
-  const auto is_critical = [&](Id end) { return final_stop(end).rank == PathStop::critical; };
+/// The first round: some exits, by their places, learn where their paths come to on the ranks that own them. Nothing is
+/// done if there are none on any rank.
+void PathsOnRanks::ask_owners(const Array<Id, HostMemory>& reached) {
+  const Offset count = reached.extent(0);
+  if (ranks().sum(count) == 0) return;
+  std::vector<Id> simplices(count);
+  std::vector<int> owners;
   together(ranks(), [&] {
-    const auto all = collected<Id>("GALE::critical_ends", ends(), [&](Offset end, const auto& add) {
-      if (is_critical(static_cast<Id>(end))) add(static_cast<Id>(end));
-    });
-    const auto ids = tabulated<GlobalId>("GALE::ids_of_ends", static_cast<Offset>(all.size()),
-                                         [&](Offset i) { return final_stop(all[i]).id; });
-    different = GlobalIndex(distinct_ids(ids).ids);
-    keys = tabulated<SimplexKey>("GALE::end_keys", different.count(), [&](Offset i) {
-      return SimplexKey{different[i], 0, 0};
-    });
+    parallel_for("GALE::open_exits", HostExecutionSpace(), count, [&](Offset i) { simplices[i] = exits_(reached(i)); });
+    owners = simplices_.owners(simplices);
   });
-  const PlacesOfAll found = places_of_keys(ranks(), keys);
-  Array<Id, HostMemory> places;
-  together(ranks(), [&] {
-    require_ids("minima or maxima of all ranks", found.count);
-    places = allocate<Array<Id, HostMemory>>("GALE::places_of_ends", ends());
-    parallel_for("GALE::places_of_ends", HostExecutionSpace(), ends(), [&](Offset i) {
-      const Id end = static_cast<Id>(i);
-      places(end) = is_critical(end) ? static_cast<Id>(found.places(different.find(final_stop(end).id))) : no_id;
-    });
-  });
-  return places;
-}
-
-/// One round: each exit whose path goes on elsewhere learns from the rank where it is how it ends there. False, and
-/// nothing done, if all have ended on all ranks.
-bool PathsOnRanks::jump() {
-  if (ranks().sum(static_cast<std::int64_t>(open_.size())) == 0) return false;
-  const auto next = ask_for_all<PathStop>(
-      ranks(), "GALE::next_stops", static_cast<Offset>(open_.size()), [&](Id i) { return stops_(open_[i]).rank; },
-      [&](Id i) { return stops_(open_[i]).id; },
+  const auto stops = ask_for_all<PathStop>(
+      ranks(), "GALE::first_stops", count, [&](Id i) { return owners[i]; },
+      [&](Id i) { return simplices_.global(simplices[i]); },
       [&](const auto& asked, const auto& answers) {
         std::vector<Id> starts(asked.count());
         parallel_for("GALE::asked_starts", HostExecutionSpace(), asked.count(),
                      [&](Offset i) { starts[i] = simplices_.local(asked.entries(i)); });
         const std::vector<Id> ends = ends_of(starts);
         parallel_for("GALE::answered_stops", HostExecutionSpace(), asked.count(),
-                     [&](Offset i) { answers(i) = final_stop(ends[i]); });
+                     [&](Offset i) { answers(i) = stop_here(ends[i]); });
       });
   together(ranks(), [&] {
-    const Offset count = static_cast<Offset>(open_.size());
-    parallel_for("GALE::next_stops", HostExecutionSpace(), count, [&](Offset i) { stops_(open_[i]) = next(i); });
     open_ = collected<Id>("GALE::open_exits", count, [&](Offset i, const auto& add) {
+      stops_(reached(i)) = stops(i);
+      if (!stops(i).is_end()) add(reached(i));
+    });
+  });
+  ++rounds_;
+}
+
+/// A further round: each exit whose path hasn't ended learns from the rank that this has come to where it goes from
+/// there. False, and nothing done, if all have ended on all ranks.
+bool PathsOnRanks::jump() {
+  if (ranks().sum(static_cast<std::int64_t>(open_.size())) == 0) return false;
+  const Offset count = static_cast<Offset>(open_.size());
+  const auto next = ask<PathStop>(
+      ranks(), "GALE::next_stops", count, [&](Id i) { return stops_(open_[i]).rank; },
+      [&](Id i) { return stops_(open_[i]).at; }, [&](std::int64_t exit) { return stops_(exit); });
+  together(ranks(), [&] {
+    open_ = collected<Id>("GALE::open_exits", count, [&](Offset i, const auto& add) {
+      stops_(open_[i]) = next(i);
       if (!next(i).is_end()) add(open_[i]);
     });
   });

@@ -60,8 +60,8 @@ class PathSimplices {
 struct PathStop {
   static constexpr int critical = -1, outside = -2;
 
-  std::int64_t rank = outside;  ///< that follows the path on, or how it ends; in 64 bits to be packed without gaps
-  GlobalId id = -1;             ///< of the simplex where it goes on, or of the critical one where it ends
+  std::int64_t rank = outside;  ///< that the path has come to, or how it ends; in 64 bits to be packed without gaps
+  std::int64_t at = -1;         ///< which of that rank's exits it has come to, or the name of the critical simplex
 
   bool is_end() const { return rank < 0; }
 };
@@ -71,8 +71,10 @@ struct PathStop {
 class PathsOnRanks {
  public:
   /// Finds those of paths from all simplices whose successors this rank knows, and from `others` (GALE's ids), whose
-  /// successors are elsewhere. Collective; throws gale::Error on all ranks. Refers to `simplices`.
-  explicit PathsOnRanks(const PathSimplices& simplices, const std::vector<Id>& others = {});
+  /// successors are elsewhere. `names`, 0 or more, are those of the rank's critical simplices, by which all ranks are to
+  /// know them. Collective; throws gale::Error on all ranks. Refers to `simplices`.
+  PathsOnRanks(const PathSimplices& simplices, const Array<const std::int64_t, HostMemory>& names,
+               const std::vector<Id>& others = {});
 
   /// How the paths from local simplices (GALE's ids) end on this rank: `end_at` (jump.hpp) the number of that end,
   /// below. Where the successors are, if there was room.
@@ -88,13 +90,14 @@ class PathsOnRanks {
   /// then the exits.
   Id ends() const { return criticals_ + static_cast<Id>(exits_.extent(0)); }
 
-  /// Where the paths that end here so end finally. Outside, too, of an exit that no path comes to that was asked for.
-  PathStop final_stop(Id end) const;
-
-  /// For each end that paths have on this rank the place of the critical simplex where they end finally among those of
-  /// all ranks, by global id; no_id if final_stop says outside. Collective. Throws gale::Error on all ranks if
-  /// there are more than ids can number.
-  Array<const Id, HostMemory> places_of_ends() const;
+  /// The name of the critical simplex at which the paths that end here so end finally; -1 if that is outside, or an exit
+  /// that no path comes to that was asked for.
+  std::int64_t final_name(Id end) const {
+    if (end == no_id) return -1;
+    if (end < criticals_) return names_(end);
+    const PathStop& stop = stops_(end - criticals_);
+    return stop.rank == PathStop::critical ? stop.at : -1;
+  }
 
   /// How many rounds of messages it took.
   int rounds() const { return rounds_; }
@@ -104,15 +107,17 @@ class PathsOnRanks {
 
  private:
   void find_exits(const std::vector<Id>& others);
-  void begin_at(const Array<Id, HostMemory>& reached);
+  void ask_owners(const Array<Id, HostMemory>& reached);
   bool jump();
+  PathStop stop_here(Id end) const;
 
   const PathSimplices& simplices_;
-  Id criticals_;
+  const Id criticals_;
+  const Array<const std::int64_t, HostMemory> names_;  ///< of the critical simplices
   Array<Id, HostMemory> exits_;  ///< ascending
   Mirrored<Id> ends_;
-  Array<PathStop, HostMemory> stops_;  ///< of each exit: where paths from there are after 2^rounds changes of ranks
-  std::vector<Id> open_;               ///< the places of those that haven't ended yet, by their global ids
+  Array<PathStop, HostMemory> stops_;  ///< of each exit: where paths from there are after 2^(rounds-1) changes of ranks
+  std::vector<Id> open_;               ///< the places of those that haven't ended yet
   int rounds_ = 0;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -78,28 +79,30 @@ EntriesByRank<T> exchange(const Ranks& ranks, const char* label, const EntriesBy
   return received;
 }
 
-/// Exchanges entries in as few bytes as pack_rows makes of them: ids, places and the like that ascend or lie near one
-/// another. A rank's own are copied. Collective.
+/// The entries for one rank, or from it, as rows of words: integers alone, without gaps between them.
 template <class T>
-EntriesByRank<T> exchange_packed(const Ranks& ranks, const char* label, const EntriesByRank<T>& sent) {
-  static_assert(std::has_unique_object_representations_v<T> && sizeof(T) % sizeof(std::uint32_t) == 0,
-                "integers alone, without gaps between them");
-  constexpr int width = sizeof(T) / sizeof(std::uint32_t);
+WordRows rows_of(const EntriesByRank<T>& all, int rank) {
+  static_assert(std::has_unique_object_representations_v<T> && sizeof(T) % sizeof(std::uint32_t) == 0);
+  return {all.entries.data() + all.begin[rank], all.count(rank), sizeof(T) / sizeof(std::uint32_t)};
+}
+
+/// Exchanges several lists of entries, in one message from rank to rank, and in as few bytes as pack_rows makes of
+/// them: ids, places and the like that ascend or lie near one another. A rank's own are copied. Collective.
+template <class... T>
+std::tuple<EntriesByRank<T>...> exchange_lists(const Ranks& ranks, const char* label, const EntriesByRank<T>&... sent) {
   const int here = ranks.rank();
-  const auto for_each_other = [&](const EntriesByRank<T>& entries, const auto& body) {
+  const auto for_each_other = [&](const EntriesByRank<T>&... lists, const auto& body) {
     const auto visit = [&](int rank, bool are_many) {
-      if (rank != here && are_many_to_pack(entries.count(rank)) == are_many) body(rank);
+      if (rank != here && (are_many_to_pack(lists.count(rank)) || ...) == are_many) body(rank);
     };
     for (int rank = 0; rank < ranks.size(); ++rank) visit(rank, true);  // by all threads
-    in_turns(threads_for(entries.count()), ranks.size(),
+    in_turns(threads_for((lists.count() + ...)), ranks.size(),
              [&](int, std::int64_t rank) { visit(static_cast<int>(rank), false); });
   };
   EntriesByRank<char> packed;
   together(ranks, [&] {
     std::vector<PackedPieces> pieces(ranks.size());
-    for_each_other(sent, [&](int rank) {
-      pieces[rank] = pack_rows(sent.entries.data() + sent.begin[rank], sent.count(rank), width);
-    });
+    for_each_other(sent..., [&](int rank) { pieces[rank] = pack_lists({rows_of(sent, rank)...}); });
     std::vector<std::int64_t> counts;
     for (const PackedPieces& some : pieces) counts.push_back(bytes_of(some));
     packed = room_by_rank<char>(label, counts);
@@ -107,18 +110,38 @@ EntriesByRank<T> exchange_packed(const Ranks& ranks, const char* label, const En
       write_pieces(pieces[rank], packed.entries.data() + packed.begin[rank]);
   });
   const EntriesByRank<char> received = exchange(ranks, label, packed);
-  EntriesByRank<T> unpacked;
+  std::tuple<EntriesByRank<T>...> unpacked;
   together(ranks, [&] {
-    const auto from = [&](int rank) { return received.entries.data() + received.begin[rank]; };
-    std::vector<std::int64_t> counts;
+    std::vector<std::vector<PackedList>> lists;  // by rank
     for (int rank = 0; rank < ranks.size(); ++rank)
-      counts.push_back(rank == here ? sent.count(here) : packed_rows(from(rank), received.count(rank)));
-    unpacked = room_by_rank<T>(label, counts);
-    const auto to = [&](int rank) { return unpacked.entries.data() + unpacked.begin[rank]; };
-    std::copy_n(sent.entries.data() + sent.begin[here], sent.count(here), to(here));
-    for_each_other(unpacked, [&](int rank) { unpack_rows(from(rank), received.count(rank), width, to(rank)); });
+      lists.push_back(lists_in(received.entries.data() + received.begin[rank], received.count(rank), sizeof...(T)));
+    int at = 0;  // in order of the lists
+    const auto make_room = [&](const auto& own, auto& list) {
+      std::vector<std::int64_t> counts;
+      for (int rank = 0; rank < ranks.size(); ++rank)
+        counts.push_back(rank == here ? own.count(here) : lists[rank][at].rows());
+      list = room_by_rank<std::decay_t<decltype(own.entries(0))>>(label, counts);
+      std::copy_n(own.entries.data() + own.begin[here], own.count(here), list.entries.data() + list.begin[here]);
+      ++at;
+    };
+    std::apply(
+        [&](EntriesByRank<T>&... all) {
+          (make_room(sent, all), ...);
+          for_each_other(all..., [&](int rank) {
+            const WordRows to[] = {rows_of(all, rank)...};
+            for (std::size_t i = 0; i < sizeof...(T); ++i)
+              unpack_rows(lists[rank][i].bytes, lists[rank][i].count, to[i].width, to[i].words);
+          });
+        },
+        unpacked);
   });
   return unpacked;
+}
+
+/// Exchanges one list, likewise. Collective.
+template <class T>
+EntriesByRank<T> exchange_packed(const Ranks& ranks, const char* label, const EntriesByRank<T>& sent) {
+  return std::get<0>(exchange_lists(ranks, label, sent));
 }
 
 /// Groups the items 0..items-1, ascending: visit_ranks(item, visit) calls visit(rank) for each rank of an item, the

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
+#include <iterator>
 
 #include <gale/base/threads.hpp>
 #include <gale/mesh/exchange/packed_rows.hpp>
@@ -31,6 +32,12 @@ std::uint64_t read_number(const char*& from) {
     number |= static_cast<std::uint64_t>(byte & 127) << shift;
     if (byte < 128) return number;
   }
+}
+
+/// Adds a number to bytes that are few.
+void add_number(std::int64_t number, std::vector<char>& bytes) {
+  char written[10];
+  bytes.insert(bytes.end(), written, write_number(static_cast<std::uint64_t>(number), written));
 }
 
 /// Numbers small differences of either sign from 0: 0, -1, 1, -2, ...
@@ -121,13 +128,10 @@ PackedPieces pack_rows(const void* words, std::int64_t rows, int width) {
   for_each_piece(are_many_to_pack(rows), parts.count(), [&](std::int64_t part) {
     pieces[1 + part] = pack_column(first + parts.begin(part), parts.rows_of(part), width);
   });
-  const auto add = [&](std::int64_t number) {
-    char bytes[10];
-    pieces[0].insert(pieces[0].end(), bytes, write_number(static_cast<std::uint64_t>(number), bytes));
-  };
-  add(rows);
+  add_number(rows, pieces[0]);
   if (!are_many_to_pack(rows)) return pieces;
-  for (std::int64_t part = 0; part < parts.count(); ++part) add(static_cast<std::int64_t>(pieces[1 + part].size()));
+  for (std::int64_t part = 0; part < parts.count(); ++part)
+    add_number(static_cast<std::int64_t>(pieces[1 + part].size()), pieces[0]);
   return pieces;
 }
 
@@ -167,6 +171,31 @@ void unpack_rows(const char* bytes, std::int64_t count, int width, void* words) 
   for (std::int64_t part = 0; part < parts.count(); ++part)
     begin.push_back(begin.back() + static_cast<std::int64_t>(read_number(bytes)));
   for_each_piece(true, parts.count(), [&](std::int64_t part) { unpack(part, bytes + begin[part]); });
+}
+
+/// The lists follow the lengths of all but the last.
+PackedPieces pack_lists(const std::vector<WordRows>& lists) {
+  if (std::all_of(lists.begin(), lists.end(), [](const WordRows& list) { return list.rows == 0; })) return {};
+  PackedPieces all(1);
+  for (const WordRows& list : lists) {
+    PackedPieces pieces = pack_rows(list.words, list.rows, list.width);
+    if (&list != &lists.back()) add_number(bytes_of(pieces), all[0]);
+    std::move(pieces.begin(), pieces.end(), std::back_inserter(all));
+  }
+  return all;
+}
+
+std::vector<PackedList> lists_in(const char* bytes, std::int64_t count, int lists) {
+  std::vector<PackedList> all(lists, {bytes, 0});
+  if (count == 0) return all;
+  const char* at = bytes;
+  for (int i = 0; i + 1 < lists; ++i) all[i].count = static_cast<std::int64_t>(read_number(at));
+  for (int i = 0; i + 1 < lists; ++i) {
+    all[i].bytes = at;
+    at += all[i].count;
+  }
+  all.back() = {at, bytes + count - at};
+  return all;
 }
 
 }  // namespace gale::detail

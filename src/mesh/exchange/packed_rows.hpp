@@ -31,4 +31,25 @@ GALE_EXPORT std::int64_t packed_rows(const char* bytes, std::int64_t count);
 /// Unpacks all rows of what pack_rows has made of rows as wide, by all threads where they are many.
 GALE_EXPORT void unpack_rows(const char* bytes, std::int64_t count, int width, void* words);
 
+/// Rows that are packed together with others, or unpacked.
+struct WordRows {
+  void* words;
+  std::int64_t rows;
+  int width;
+};
+
+/// Packs several lists into one message, one or more; nothing if all are empty.
+GALE_EXPORT PackedPieces pack_lists(const std::vector<WordRows>& lists);
+
+/// Where pack_rows has packed one list.
+struct PackedList {
+  const char* bytes;
+  std::int64_t count;
+
+  std::int64_t rows() const { return packed_rows(bytes, count); }
+};
+
+/// Finds so many lists in what pack_lists has made of them.
+GALE_EXPORT std::vector<PackedList> lists_in(const char* bytes, std::int64_t count, int lists);
+
 }  // namespace gale::detail
