@@ -6,6 +6,7 @@
 #include <deque>
 #include <exception>
 #include <functional>
+#include <future>
 #include <mutex>
 #include <string>
 #include <system_error>
@@ -119,6 +120,22 @@ template <class... Work>
 void side_by_side(const Work&... work) {
   const std::function<void()> all[] = {work...};
   in_turns(host_threads(), sizeof...(work), [&](int, std::int64_t i) { all[i](); });
+}
+
+/// Runs `beside` on a thread of its own, within what limits this one, while this one runs `here`; one after the other
+/// where the host has one thread, or the system starts no more. When both have ended it throws what `here` threw, or
+/// else what `beside` did.
+template <class Beside, class Here>
+void meanwhile(const Beside& beside, const Here& here) {
+  const int threads = host_threads();
+  const auto policy = threads > 1 ? std::launch::async | std::launch::deferred : std::launch::deferred;
+  auto begun = std::async(policy, [&beside, threads, request = stop_request()] {
+    const ThreadLimit limit(threads);
+    const StopScope stoppable(request);
+    beside();
+  });
+  here();
+  begun.get();
 }
 
 /// Calls `body(thread, item, add)` for each of some items, and for each that a body gives to add(item), on `count`

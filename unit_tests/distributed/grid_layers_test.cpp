@@ -15,6 +15,7 @@
 #include <gale/algorithms/critical_points.hpp>
 #include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/algorithms/excerpt/wall_rows.hpp>
+#include <gale/algorithms/excerpt/ways_beyond.hpp>
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/morse_smale.hpp>
 #include <gale/algorithms/persistence.hpp>
@@ -289,8 +290,8 @@ TEST(GridLayersOfRanks, have_a_number_of_its_own_for_each_edge_that_walls_come_t
   }
   detail::WayExits exits;
   exits.edges.assign(others.begin(), others.end());
-  const detail::Reached reached = detail::reach_beyond(gradient, exits);
   const detail::PathSimplices paths(gradient, detail::PathSimplices::Kind::rising_cells);
+  const detail::Reached reached = detail::reach_beyond(gradient, paths, exits);
   const detail::WiderGradient wider(gradient, std::make_shared<const detail::WiderSimplices>(gradient, paths, reached),
                                     reached);
   EXPECT_EQ(wider.told_edges().empty(), others.empty());

@@ -108,10 +108,11 @@ FallingEdges::FallingEdges(const DiscreteGradient& gradient)
 std::vector<std::array<Id, 2>> FallingEdges::fall(const std::vector<std::array<Id, 2>>& edges) {
   if (edges.empty()) return {};
   const Offset left_before = counts_.left, count = static_cast<Offset>(edges.size());
-  const auto ends = in_memory<WorkerMemory>(Array<const Id, HostMemory>(edges[0].data(), 2 * edges.size()));
+  make_room(space_, "GALE::ends_of_edges", ends_, 0, 2 * count);
+  copy_to_device(ends_.data(), edges[0].data(), edges.size() * sizeof(edges[0]));
   Offset first = counts_.open;
   const int steps = reserve(count);
-  parallel_for("GALE::begin_edges", space_, count, BeginEdges{{edges_, keys_, found_, steps}, ends});
+  parallel_for("GALE::begin_edges", space_, count, BeginEdges{{edges_, keys_, found_, steps}, ends_});
   take_counts();
   while (first < counts_.open) {
     stop_if_asked();
@@ -121,6 +122,7 @@ std::vector<std::array<Id, 2>> FallingEdges::fall(const std::vector<std::array<I
     first += open;
     take_counts();
   }
+  if (counts_.left == left_before) return {};
   const Array<std::array<Id, 2>, WorkerMemory> left =
       Kokkos::subview(found_.left, std::make_pair(std::size_t(left_before), std::size_t(counts_.left)));
   return vector_of(left);

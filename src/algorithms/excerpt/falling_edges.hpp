@@ -52,6 +52,7 @@ class FallingEdges {
   const WorkerSpace space_{};
   const EdgesInKernels edges_;
   const Array<const std::uint64_t, WorkerMemory> keys_;
+  Array<Id, WorkerMemory> ends_;  ///< of the edges that a call begins with
   FallenEdges found_;
   FallenCounts counts_;
 };

@@ -37,11 +37,6 @@ void for_each_vertex_of(FoundFor& found, const Visit& visit) {
 
 }  // namespace
 
-void FoundForRanks::forget(int asker) {
-  for_each_list_of(found_[asker], [](auto& list) { list = {}; });
-  found_[asker].more_vertices = {};
-}
-
 void FoundForRanks::number_vertices() {
   for (FoundFor& found : found_) {
     bool has_any = !found.more_vertices.empty();

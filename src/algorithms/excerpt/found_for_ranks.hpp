@@ -5,6 +5,8 @@
 #include <vector>
 
 #include <gale/algorithms/excerpt/reached.hpp>
+#include <gale/algorithms/gradient/pair_star.hpp>
+#include <gale/algorithms/morse_smale/paths_on_ranks.hpp>
 #include <gale/algorithms/vertex_order.hpp>
 #include <gale/base/hash_table.hpp>
 
@@ -22,6 +24,27 @@ struct FoundFor : ReachedLists<FoundList> {
   std::vector<Id> more_vertices;  ///< that no simplex has
   HashTable<Id> cell_places;
   HashTable<IsSeen> fallen_vertices, fallen_edges, told_edges, risen_cells, risen_edges;
+
+  /// The place of a cell among `cells`, where it is put if it isn't there yet.
+  Id place_of(Id cell, const CellReader& corners_of, const PathSimplices& simplices) {
+    const auto [place, is_new] = cell_places.insert(static_cast<std::uint64_t>(cell));
+    if (is_new) {
+      place = static_cast<Id>(cells.size());
+      const Quad corners = corners_of(cell);
+      cells.push_back({simplices.global(cell), {corners.a, corners.b, corners.c, corners.d}});
+    }
+    return place;
+  }
+
+  /// Adds the step from a cell to its successor, or of one that has none; returns the cell's place.
+  template <class PlaceOf>
+  Id add_step(Id cell, Id next, const PlaceOf& place_of) {
+    const Id place = place_of(cell);
+    cell_steps.push_back({place, next >= 0        ? place_of(next)
+                                 : next == no_id ? no_id
+                                                 : step_outside(corner_outside(next))});
+    return place;
+  }
 };
 
 /// What a rank has found for all that ask.
@@ -30,9 +53,6 @@ class FoundForRanks {
   explicit FoundForRanks(const VertexOrder& order) : order_(order), found_(order.mesh().exchange().ranks().size()) {}
 
   FoundFor& operator[](int asker) { return found_[asker]; }
-
-  /// Has nothing for one of them.
-  void forget(int asker);
 
   /// Has all call vertices by their places in the lists of vertices, which it makes.
   void number_vertices();

@@ -22,16 +22,20 @@ namespace {
 /// would cost more than it saves. Keeps what the excerpt is made of, as long as it is wanted.
 class PassedSimplices {
  public:
-  PassedSimplices(const WiderGradient& wider, const MorseSmaleComplex& complex)
-      : wider_(wider.simplices()), cells_(wider_->cells()) {
-    mark_cells(wider.critical(), complex);
+  /// Begins with what is on paths, and with critical simplices: cells have numbers then.
+  PassedSimplices(const WiderGradient& wider, const Separatrices<Id>& descending, const Separatrices<Id>& ascending)
+      : wider_(wider.simplices()), cells_(wider_->cells()), vertex_count_(wider_->vertices()) {
+    mark_cells(wider.critical(), ascending);
     number_cells();
-    if (4 * static_cast<Offset>(cell_of_.size()) < wider_->vertices()) {
-      mark_vertices(wider.critical(), complex);
-      vertex_count_ = vertices_->count();
-    } else {
-      vertex_count_ = wider_->vertices();
-    }
+    if (4 * static_cast<Offset>(cell_of_.size()) < wider_->vertices()) mark_vertices(wider.critical(), descending);
+  }
+
+  /// Adds what is on connectors. Afterwards vertices have numbers.
+  void finish(const Separatrices<TriangleVertices>& connectors) {
+    if (!vertices_) return;
+    mark_all_of(connectors.cells);
+    vertices_->number();
+    vertex_count_ = vertices_->count();
   }
 
   Id number(Id vertex) const { return vertices_ ? (*vertices_)[wider_->names()[vertex]] : wider_->names()[vertex]; }
@@ -106,9 +110,9 @@ class PassedSimplices {
     });
   }
 
-  void mark_cells(const CriticalSimplices& critical, const MorseSmaleComplex& complex) {
+  void mark_cells(const CriticalSimplices& critical, const Separatrices<Id>& ascending) {
     const auto mark = [&](Id cell) { return cells_.insert(wider_->cell_name(cell)); };
-    mark_paths(complex.ascending, mark, [&](Id cell) { cells_.prefetch(wider_->cell_name(cell)); });
+    mark_paths(ascending, mark, [&](Id cell) { cells_.prefetch(wider_->cell_name(cell)); });
     for (const Id cell : critical.cells) mark(cell);
     for (const Id cell : critical.star) mark(cell);
   }
@@ -164,17 +168,22 @@ class PassedSimplices {
                  [&](Offset i) { set_number(others[i].place, others[i].own_before + i); });
   }
 
-  /// The vertices of what is passed alone.
-  void mark_vertices(const CriticalSimplices& critical, const MorseSmaleComplex& complex) {
-    NumberedSet& passed = vertices_.emplace(wider_->vertices());
-    const auto mark = [&](Id vertex) { return passed.insert(wider_->names()[vertex]); };
-    const auto mark_all_of = [&](const auto& simplices) {
-      parallel_for("GALE::mark_passed", HostExecutionSpace(), simplices.size(), [&](Offset i) {
-        for (const Id vertex : simplices[i]) mark(vertex);
-      });
-    };
-    mark_paths(complex.descending, mark, [&](Id vertex) { passed.prefetch(wider_->names()[vertex]); });
-    mark_all_of(complex.connectors.cells);
+  bool mark(Id vertex) { return vertices_->insert(wider_->names()[vertex]); }
+
+  /// Marks the vertices of simplices.
+  template <class Simplex>
+  void mark_all_of(const std::vector<Simplex>& simplices) {
+    parallel_for("GALE::mark_passed", HostExecutionSpace(), simplices.size(), [&](Offset i) {
+      for (const Id vertex : simplices[i]) mark(vertex);
+    });
+  }
+
+  /// Marks the vertices of what is passed alone.
+  void mark_vertices(const CriticalSimplices& critical, const Separatrices<Id>& descending) {
+    vertices_.emplace(wider_->vertices());
+    mark_paths(
+        descending, [&](Id vertex) { return mark(vertex); },
+        [&](Id vertex) { vertices_->prefetch(wider_->names()[vertex]); });
     for (const Id vertex : critical.vertices) mark(vertex);
     mark_all_of(critical.edges);
     mark_all_of(critical.triangles);
@@ -186,7 +195,6 @@ class PassedSimplices {
         for (const Id vertex : corners_of(cell_of_[i])) mark(vertex);
       }
     });
-    passed.number();
   }
 
   /// Calls visit(vertex, number) for each that is in the excerpt.
@@ -208,7 +216,7 @@ class PassedSimplices {
   const std::shared_ptr<const WiderSimplices> wider_;
   NumberedSet cells_;                    ///< by name
   std::optional<NumberedSet> vertices_;  ///< by name; none where all are taken
-  Id vertex_count_ = 0;
+  Id vertex_count_;
   std::vector<Id> cell_of_;         ///< by number
   std::vector<Id> number_of_cell_;  ///< by name
 };
@@ -222,8 +230,21 @@ void rename_all(std::vector<T>& list, const Rename& rename) {
 
 }  // namespace
 
-void name_in_excerpt(const WiderGradient& wider, MorseSmaleComplex& complex) {
-  const auto passed = std::make_shared<PassedSimplices>(wider, complex);
+void name_in_excerpt(const WiderGradient& wider,
+                     const std::function<Separatrices<TriangleVertices>()>& find_connectors,
+                     MorseSmaleComplex& complex) {
+  std::shared_ptr<PassedSimplices> passed;
+  const auto mark = [&] { passed = std::make_shared<PassedSimplices>(wider, complex.descending, complex.ascending); };
+  const auto connect = [&] {
+    if (find_connectors) complex.connectors = find_connectors();
+  };
+  if (complex.gradient.store().is_from_kernels()) {
+    meanwhile(mark, connect);
+  } else {
+    mark();
+    connect();
+  }
+  passed->finish(complex.connectors);
   const bool is_grid = complex.gradient.mesh().grid() != nullptr;
   std::optional<Mesh> mesh;
   if (!is_grid) mesh = passed->make_mesh();

@@ -1,14 +1,13 @@
 #include <algorithm>
+#include <memory>
 #include <optional>
 #include <utility>
 
-#include <gale/algorithms/excerpt/edge_fall.hpp>
 #include <gale/algorithms/excerpt/found_for_ranks.hpp>
 #include <gale/algorithms/excerpt/gathering.hpp>
 #include <gale/algorithms/excerpt/path_steps.hpp>
 #include <gale/algorithms/excerpt/reached.hpp>
 #include <gale/algorithms/gradient/edges_on_host.hpp>
-#include <gale/algorithms/gradient/pair_star.hpp>
 #include <gale/algorithms/morse_smale/edge_star.hpp>
 #include <gale/algorithms/morse_smale/paths_on_ranks.hpp>
 #include <gale/base/error.hpp>
@@ -35,8 +34,7 @@ struct SentStep {
 
 class Reacher {
  public:
-  /// With `is_beyond` a rank knows by itself what is in its part.
-  Reacher(const DiscreteGradient& gradient, const WantedWays& ways, Structure* rows, bool is_beyond)
+  Reacher(const DiscreteGradient& gradient, const WantedWays& ways, Structure* rows)
       : gradient_(gradient),
         ways_(ways),
         mesh_(gradient.mesh()),
@@ -46,13 +44,10 @@ class Reacher {
         corners_(mesh_.cell_reader()),
         input_(mesh_.vertices_in_input()),
         internal_(mesh_.vertices_of_input()),
-        vertex_successors_(gradient.store().vertex_successors(), true),
         cell_successors_(gradient.store().cell_successors(), gradient.store().further_successors.empty()),
         further_(gradient.store().further_successors),
-        is_beyond_(is_beyond),
-        found_(gradient.order()),
-        falls_(ranks_.size()) {
-    if (!is_beyond) edges_.emplace(gradient);
+        edges_(gradient),
+        found_(gradient.order()) {
     if (!ways.rising_walls) return;
     consumer_ = rows->consumer();
     star_.emplace(mesh_);
@@ -82,31 +77,19 @@ class Reacher {
       found.more_vertices.push_back(gradient_.order().highest(owned_));
   }
 
-  /// From these, for this rank.
-  void begin(const WayExits& exits) {
-    const int asker = ranks_.rank();
-    for (const Id vertex : exits.vertices) go({StepKind::falling_vertex, asker, {vertex}});
-    for (const Id cell : exits.cells) go({StepKind::rising_cell, asker, {cell}});
-    for (const auto& [high, low] : exits.edges) go({StepKind::falling_edge, asker, {high, low}});
-  }
-
   /// Takes all steps that this rank can.
   void follow() {
-    if (!edges_) vertex_successors_.follow(starts_of(StepKind::falling_vertex));
-    cell_successors_.follow(starts_of(StepKind::rising_cell));
-    std::vector<std::vector<std::array<Id, 2>>> falling(ranks_.size());  // edges from which alone edges fall, by asker
+    std::vector<Id> rising;
+    for (const LocalStep& step : here_) {
+      if (step.kind == StepKind::rising_cell) rising.push_back(step.simplex[0]);
+    }
+    cell_successors_.follow(std::move(rising));
     for (std::int64_t i = 0; !here_.empty(); ++i) {
       stop_if_asked_at(i);
       const LocalStep step = here_.back();
       here_.pop_back();
-      if (is_beyond_ && step.kind == StepKind::falling_edge) {
-        falling[step.asker].push_back({step.simplex[0], step.simplex[1]});
-      } else {
-        take(step);
-      }
+      take(step);
     }
-    for (std::size_t asker = 0; asker < falling.size(); ++asker)
-      fall(static_cast<int>(asker), std::move(falling[asker]));
     leave_cells();
   }
 
@@ -126,33 +109,14 @@ class Reacher {
     return true;
   }
 
-  /// What was found for all ranks, when nobody has anything left; for this one nothing that it knows by itself.
-  FoundForRanks& found() {
-    if (is_beyond_) {
-      found_.forget(ranks_.rank());
-      falls_[ranks_.rank()].reset();
-    }
-    for (int asker = 0; asker < ranks_.size(); ++asker) {
-      if (falls_[asker]) found_of(asker).edges = falls_[asker]->passed();
-      falls_[asker].reset();
-    }
-    return found_;
-  }
+  /// What was found for all ranks, when nobody has anything left.
+  FoundForRanks& found() { return found_; }
 
  private:
   FoundFor& found_of(int asker) { return found_[asker]; }
 
   bool is_owned(Id vertex) const { return owned_.has(vertex); }
-  Id higher(Id a, Id b) const { return edges_->is_higher(a, b) ? a : b; }
-
-  /// The simplices of all steps of a kind that this rank can take.
-  std::vector<Id> starts_of(StepKind kind) const {
-    std::vector<Id> starts;
-    for (const LocalStep& step : here_) {
-      if (step.kind == kind) starts.push_back(step.simplex[0]);
-    }
-    return starts;
-  }
+  Id higher(Id a, Id b) const { return edges_.is_higher(a, b) ? a : b; }
 
   void begin_stars(int asker, FoundFor& found) {
     const CriticalSimplices& critical = gradient_.critical();
@@ -169,8 +133,7 @@ class Reacher {
   }
 
   /// Goes on from a simplex, unless that was done: here, or where the rank is that knows how. Cells are known to be
-  /// another rank's when they are taken. Edges from which alone edges fall may come several times: EdgeFall keeps them
-  /// apart.
+  /// another rank's when they are taken.
   void go(const LocalStep& step) {
     FoundFor& found = found_of(step.asker);
     const auto [a, b, c] = step.simplex;
@@ -180,7 +143,7 @@ class Reacher {
         if (!found.fallen_vertices.insert(static_cast<std::uint64_t>(a)).second) return;
         break;
       case StepKind::falling_edge:
-        if (!is_beyond_ && !found.fallen_edges.insert(pair_key(a, b)).second) return;
+        if (!found.fallen_edges.insert(pair_key(a, b)).second) return;
         break;
       case StepKind::rising_cell:
         if (found.risen_cells.insert(static_cast<std::uint64_t>(a)).second) here_.push_back(step);
@@ -245,7 +208,7 @@ class Reacher {
   }
 
   void fall_to(int asker, Id a, Id b) {
-    const auto [high, low] = edges_->ordered(a, b);
+    const auto [high, low] = edges_.ordered(a, b);
     go({StepKind::falling_edge, asker, {high, low}});
   }
 
@@ -259,18 +222,8 @@ class Reacher {
     left_cells_.clear();
   }
 
-  /// Lets edges fall for a rank, with all that they come to.
-  void fall(int asker, std::vector<std::array<Id, 2>> edges) {
-    if (edges.empty()) return;
-    if (!falls_[asker]) falls_[asker] = std::make_unique<EdgeFall>(gradient_);
-    for (const auto& [high, low] : falls_[asker]->fall(std::move(edges))) {
-      elsewhere_.push_back(
-          {mesh_.exchange().owner(input_[high]), global({StepKind::falling_edge, asker, {high, low}})});
-    }
-  }
-
   void take_vertex(int asker, FoundFor& found, Id vertex) {
-    const Id next = edges_ ? edges_->vertex_successor(vertex) : vertex_successors_[vertex];
+    const Id next = edges_.vertex_successor(vertex);
     found.vertex_steps.push_back({vertex, next});
     if (next != no_id) go({StepKind::falling_vertex, asker, {next}});
   }
@@ -281,13 +234,8 @@ class Reacher {
       left_cells_.push_back({StepKind::rising_cell, asker, {cell}});
       return;
     }
-    const Id place = cell_place(found, cell);
-    if (next >= 0) {
-      found.cell_steps.push_back({place, cell_place(found, next)});
-      go({StepKind::rising_cell, asker, {next}});
-    } else {
-      found.cell_steps.push_back({place, next == no_id ? no_id : step_outside(corner_outside(next))});
-    }
+    const Id place = found.add_step(cell, next, [&](Id one) { return cell_place(found, one); });
+    if (next >= 0) go({StepKind::rising_cell, asker, {next}});
     auto at = std::lower_bound(further_.begin(), further_.end(), std::make_pair(cell, Id(0)));
     for (; at != further_.end() && at->first == cell; ++at) {
       found.cell_forks.push_back({place, cell_place(found, at->second)});
@@ -297,7 +245,7 @@ class Reacher {
 
   /// From a triangle to the edge that it is paired with, if there is one.
   void cross(int asker, FoundFor& found, std::array<Id, 3> triangle) {
-    std::sort(triangle.begin(), triangle.end(), [this](Id a, Id b) { return edges_->is_higher(a, b); });
+    std::sort(triangle.begin(), triangle.end(), [this](Id a, Id b) { return edges_.is_higher(a, b); });
     for (int i = 1; i < 3; ++i) {
       if (tell_edge(found, triangle[0], triangle[i]) == triangle[3 - i])
         go({StepKind::rising_edge, asker, {triangle[0], triangle[i]}});
@@ -306,20 +254,12 @@ class Reacher {
 
   /// Notes what an edge is paired with for the rank that asks, once; returns it as EdgesOnHost does.
   Id tell_edge(FoundFor& found, Id high, Id low) {
-    const Id third = edges_->third(high, low);
+    const Id third = edges_.third(high, low);
     if (found.told_edges.insert(pair_key(high, low)).second) found.edges.push_back({high, low, third});
     return third;
   }
 
-  Id cell_place(FoundFor& found, Id cell) const {
-    const auto [place, is_new] = found.cell_places.insert(static_cast<std::uint64_t>(cell));
-    if (is_new) {
-      place = static_cast<Id>(found.cells.size());
-      const Quad corners = corners_(cell);
-      found.cells.push_back({cells_.global(cell), {corners.a, corners.b, corners.c, corners.d}});
-    }
-    return place;
-  }
+  Id cell_place(FoundFor& found, Id cell) const { return found.place_of(cell, corners_, cells_); }
 
   const DiscreteGradient& gradient_;
   const WantedWays ways_;
@@ -329,48 +269,32 @@ class Reacher {
   const PathSimplices cells_;
   const CellReader corners_;
   const OtherIds input_, internal_;
-  PathSteps vertex_successors_, cell_successors_;  ///< of vertices if all is beyond
+  PathSteps cell_successors_;
   const std::vector<std::pair<Id, Id>>& further_;
-  const bool is_beyond_;
-  std::optional<EdgesOnHost> edges_;    ///< unless all is beyond
+  const EdgesOnHost edges_;
   std::unique_ptr<Consumer> consumer_;  // of rising walls
   std::optional<EdgeStar> star_;
   FoundForRanks found_;
-  std::vector<std::unique_ptr<EdgeFall>> falls_;  ///< by asker, of edges from which alone edges fall
   std::vector<LocalStep> here_, left_cells_;
   std::vector<std::pair<int, SentStep>> elsewhere_;
 };
 
-/// Follows what begin(reacher) begins. Collective.
-template <class Begin>
-Reached followed(const DiscreteGradient& gradient, const WantedWays& ways, Structure* rows, bool is_beyond,
-                 std::size_t most_bytes, const Begin& begin) {
+}  // namespace
+
+Reached reach(const DiscreteGradient& gradient, const WantedWays& ways, Structure* rows, std::size_t most_bytes) {
   const Ranks& ranks = gradient.mesh().exchange().ranks();
   std::unique_ptr<Reacher> reacher;
   together(ranks, [&] {
-    reacher = std::make_unique<Reacher>(gradient, ways, rows, is_beyond);
-    begin(*reacher);
+    reacher = std::make_unique<Reacher>(gradient, ways, rows);
+    reacher->begin();
   });
   do {
     together(ranks, [&] { reacher->follow(); });
   } while (reacher->hand_over());
-  FoundForRanks* found = nullptr;
-  together(ranks, [&] {
-    found = &reacher->found();
-    found->number_vertices();
-  });
-  require_room(ranks, "what critical simplices reach", found->bytes(), most_bytes);
-  return found->send();
-}
-
-}  // namespace
-
-Reached reach(const DiscreteGradient& gradient, const WantedWays& ways, Structure* rows, std::size_t most_bytes) {
-  return followed(gradient, ways, rows, false, most_bytes, [](Reacher& reacher) { reacher.begin(); });
-}
-
-Reached reach_beyond(const DiscreteGradient& gradient, const WayExits& exits) {
-  return followed(gradient, {}, nullptr, true, 0, [&](Reacher& reacher) { reacher.begin(exits); });
+  FoundForRanks& found = reacher->found();
+  together(ranks, [&] { found.number_vertices(); });
+  require_room(ranks, "what critical simplices reach", found.bytes(), most_bytes);
+  return found.send();
 }
 
 }  // namespace gale::detail

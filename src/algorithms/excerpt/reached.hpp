@@ -66,16 +66,6 @@ void for_each_received(const EntriesByRank<T>& received, const Visit& visit) {
   }
 }
 
-/// Simplices (GALE's ids) at which ways leave a rank's part, once each: others know how they go on.
-struct WayExits {
-  std::vector<Id> vertices, cells;
-  std::vector<std::array<Id, 2>> edges;  ///< the higher end first
-};
-
-/// Follows ways on from a rank's exits, for that rank. Received is what other ranks have found, in whose edges those
-/// that are paired with a vertex are left out; entries of this rank itself are none. Else as `reach`. Collective.
-Reached reach_beyond(const DiscreteGradient& gradient, const WayExits& exits);
-
 /// Follows ways, from rank to rank in rounds of messages, as many as a way changes ranks: a step is taken by the rank
 /// that owns the highest vertex of a simplex. Each is taken once for each rank that asks. `rows` has VT, for rising
 /// walls alone. Collective. Throws gale::Error on all ranks, before anything is sent, if one would receive more than

@@ -186,7 +186,7 @@ Array<GlobalId, HostMemory> places_among_all(const PathSimplices& simplices) {
 Mirrored<Id> manifolds_on_ranks(const DiscreteGradient& gradient, PathSimplices::Kind kind, PathExits* exits) {
   const auto simplices = PathSimplices::make(gradient, kind);
   const Ranks& ranks = gradient.mesh().exchange().ranks();
-  Mirrored<Id> starts;
+  Mirrored<Id> starts;  // of vertices
   std::vector<Id> elsewhere;
   together(ranks, [&] {
     const bool on_device = simplices->successors().on_device();
@@ -194,14 +194,13 @@ Mirrored<Id> manifolds_on_ranks(const DiscreteGradient& gradient, PathSimplices:
         on_device, [&](const auto& space) -> Mirrored<Id> { return starts_in(space, gradient.mesh(), kind); });
     elsewhere = in_worker_or_host_space(on_device,
                                         [&](const auto& space) { return starts_elsewhere(space, *simplices, starts); });
+    if (exits == nullptr) return;
+    elsewhere.insert(elsewhere.end(), exits->starts.simplices.begin(), exits->starts.simplices.end());
   });
   const PathsOnRanks paths(*simplices, places_among_all(*simplices), elsewhere);
-  if (exits != nullptr) {
-    together(ranks, [&] { exits->exits = paths.exits_from(exits->starts.simplices); });
-    exits->are_known = true;
-  }
   Array<const Id, HostMemory> places;
   together(ranks, [&] {
+    if (exits != nullptr) exits->links = paths.exits_from(exits->starts.simplices);
     places = tabulated<Id>("GALE::places_of_ends", paths.ends(),
                            [&](Offset end) { return static_cast<Id>(paths.final_name(static_cast<Id>(end))); });
   });
@@ -235,6 +234,12 @@ Mirrored<Id> descending_manifolds(const DiscreteGradient& gradient, PathExits* e
 
 Mirrored<Id> ascending_manifolds(const DiscreteGradient& gradient, PathExits* exits) {
   return manifolds(gradient, PathSimplices::Kind::rising_cells, exits);
+}
+
+void find_exits(const DiscreteGradient& gradient, PathSimplices::Kind kind, PathExits& exits) {
+  const auto simplices = PathSimplices::make(gradient, kind);
+  const PathsOnRanks paths(*simplices, places_among_all(*simplices), exits.starts.simplices);
+  together(paths.ranks(), [&] { exits.links = paths.exits_from(exits.starts.simplices); });
 }
 
 Mirrored<Id> renamed(const Mirrored<Id>& manifolds, const std::vector<Id>& names) {

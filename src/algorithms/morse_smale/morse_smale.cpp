@@ -86,9 +86,14 @@ std::array<std::vector<char>, 4> own_simplices(const DiscreteGradient& excerpt, 
   return own;
 }
 
-/// Finds the manifolds that the complex is to have, and on the way there the exits of paths on several ranks.
+/// Finds the manifolds that the complex is to have, and the exits of paths on several ranks, on the way there if it
+/// leads past them.
 void find_manifolds(MorseSmaleComplex& complex, detail::PathExits* down = nullptr, detail::PathExits* up = nullptr) {
   const MorseSmaleParts& parts = complex.parts;
+  if (!parts.descending_manifolds && parts.descending_separatrices && down != nullptr)
+    detail::find_exits(complex.gradient, detail::PathSimplices::Kind::falling_vertices, *down);
+  if (!parts.ascending_manifolds && parts.ascending_separatrices && up != nullptr)
+    detail::find_exits(complex.gradient, detail::PathSimplices::Kind::rising_cells, *up);
   if (parts.descending_manifolds) complex.descending_manifold = detail::descending_manifolds(complex.gradient, down);
   if (parts.ascending_manifolds) complex.ascending_manifold = detail::ascending_manifolds(complex.gradient, up);
   if (parts.descending_manifolds && parts.ascending_manifolds) {

@@ -8,6 +8,7 @@
 
 #include <gale/algorithms/morse_smale.hpp>
 #include <gale/algorithms/morse_smale/critical_places.hpp>
+#include <gale/algorithms/morse_smale/paths_on_ranks.hpp>
 #include <gale/algorithms/morse_smale/wider_successors.hpp>
 #include <gale/base/mirrored.hpp>
 #include <gale/runtime/structure.hpp>
@@ -87,8 +88,7 @@ class ConnectorsHere {
 /// Where this rank's 1-separatrices leave its part.
 struct PathExits {
   PathStarts starts;
-  std::vector<Id> exits;   ///< GALE's ids of simplices that are elsewhere, once each
-  bool are_known = false;  ///< whether `exits` were found already, on the way to manifolds
+  ExitLinks links;
 };
 
 /// Finds the separatrices of this rank's saddles on several ranks, and the excerpt that these are in. What leaves a
@@ -106,6 +106,9 @@ Separatrices<TriangleVertices> device_connectors(const WallRows& rows, const std
 /// each of the edge's triangles, to the edge that the triangle is paired with. Reads VT of `structure`.
 AscendingWalls ascending_walls(Structure& structure, const DiscreteGradient& gradient, const std::vector<Id>& sources,
                                int threads);
+
+/// Finds where paths from `exits.starts` leave the part. Collective.
+void find_exits(const DiscreteGradient& gradient, PathSimplices::Kind kind, PathExits& exits);
 
 // Manifolds are where they were found: in the workers' memory, if there is room. Of a mesh on several ranks finding
 // them is collective. They are by input id, ghosts' too, and name extrema by their places among those of all ranks. On

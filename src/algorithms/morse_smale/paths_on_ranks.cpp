@@ -6,6 +6,7 @@
 #include <gale/algorithms/morse_smale/paths_on_ranks.hpp>
 #include <gale/base/atomic.hpp>
 #include <gale/base/memory.hpp>
+#include <gale/base/sort.hpp>
 #include <gale/mesh/exchange/messages.hpp>
 
 namespace gale::detail {
@@ -197,6 +198,7 @@ PathsOnRanks::PathsOnRanks(const PathSimplices& simplices, const Array<const std
     reached = here.reached;
     stops_ = allocate<Array<PathStop, HostMemory>>("GALE::path_stops", exits_.extent(0));
     fill("GALE::path_stops", HostExecutionSpace(), stops_, PathStop());
+    links_ = allocate<Array<ExitLink, HostMemory>>("GALE::exit_links", exits_.extent(0));
   });
   ask_owners(reached);
   while (jump()) {
@@ -209,12 +211,13 @@ std::vector<Id> PathsOnRanks::ends_of(const std::vector<Id>& simplices) const {
   });
 }
 
-std::vector<Id> PathsOnRanks::exits_from(const std::vector<Id>& simplices) const {
-  std::vector<char> is_found(exits_.extent(0), 0);
-  std::vector<Id> found;
-  for (const Id at : ends_of(simplices)) {
-    if (at >= criticals_ && std::exchange(is_found[at - criticals_], 1) == 0) found.push_back(exits_(at - criticals_));
+ExitLinks PathsOnRanks::exits_from(const std::vector<Id>& simplices) const {
+  ExitLinks found{exits_, links_, {}};
+  for (const Id end : ends_of(simplices)) {
+    if (end >= criticals_) found.wanted.push_back(end - criticals_);
   }
+  parallel_sort("GALE::sort_exits", found.wanted.begin(), found.wanted.end());
+  found.wanted.erase(std::unique(found.wanted.begin(), found.wanted.end()), found.wanted.end());
   return found;
 }
 
@@ -249,8 +252,11 @@ void PathsOnRanks::ask_owners(const Array<Id, HostMemory>& reached) {
       });
   together(ranks(), [&] {
     open_ = collected<Id>("GALE::open_exits", count, [&](Offset i, const auto& add) {
-      stops_(reached(i)) = stops(i);
-      if (!stops(i).is_end()) add(reached(i));
+      const Id exit = reached(i);
+      const bool goes_on = !stops(i).is_end();
+      stops_(exit) = stops(i);
+      links_(exit) = {owners[i], goes_on ? static_cast<Id>(stops(i).at) : no_id};
+      if (goes_on) add(exit);
     });
   });
   ++rounds_;

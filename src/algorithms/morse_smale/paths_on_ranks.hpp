@@ -66,12 +66,26 @@ struct PathStop {
   bool is_end() const { return rank < 0; }
 };
 
+/// How the path from an exit goes on.
+struct ExitLink {
+  std::int32_t owner = -1;  ///< the rank that follows it
+  Id exit = no_id;          ///< which of that rank's exits it comes to; no_id: it ends there
+};
+
+/// The exits of one rank, simplices (GALE's ids) that others follow the paths of, ascending; and how those paths go on
+/// to which others lead.
+struct ExitLinks {
+  Array<const Id, HostMemory> exits;
+  Array<const ExitLink, HostMemory> links;
+  std::vector<Id> wanted;  ///< the places of those that some paths come to, once each
+};
+
 /// The ends of paths along the successors of a mesh on several ranks, by pointer jumping: first on each rank, then from
 /// rank to rank, in a number of rounds that grows with the logarithm of how often a path changes ranks.
 class PathsOnRanks {
  public:
   /// Finds those of paths from all simplices whose successors this rank knows, and from `others` (GALE's ids), whose
-  /// successors are elsewhere. `names`, 0 or more, are those of the rank's critical simplices, by which all ranks are to
+  /// successors may be elsewhere. `names`, 0 or more, are those of the rank's critical simplices, by which all ranks are to
   /// know them. Collective; throws gale::Error on all ranks. Refers to `simplices`.
   PathsOnRanks(const PathSimplices& simplices, const Array<const std::int64_t, HostMemory>& names,
                const std::vector<Id>& others = {});
@@ -83,8 +97,9 @@ class PathsOnRanks {
   /// The numbers of these ends for some simplices; no_id if a path leaves through the surface. Not collective.
   std::vector<Id> ends_of(const std::vector<Id>& simplices) const;
 
-  /// The exits that paths from some simplices (GALE's ids) come to, once each. Not collective.
-  std::vector<Id> exits_from(const std::vector<Id>& simplices) const;
+  /// All exits, of which those are wanted that paths from some simplices (GALE's ids) come to: where successors are
+  /// elsewhere, some of the `others`. Not collective.
+  ExitLinks exits_from(const std::vector<Id>& simplices) const;
 
   /// Exits: simplices of this rank that another one follows the paths of. Ends are numbered: first the critical ones,
   /// then the exits.
@@ -117,7 +132,8 @@ class PathsOnRanks {
   Array<Id, HostMemory> exits_;  ///< ascending
   Mirrored<Id> ends_;
   Array<PathStop, HostMemory> stops_;  ///< of each exit: where paths from there are after 2^(rounds-1) changes of ranks
-  std::vector<Id> open_;               ///< the places of those that haven't ended yet
+  Array<ExitLink, HostMemory> links_;  ///< of each exit
+  std::vector<Id> open_;               ///< the places of those whose paths haven't ended yet
   int rounds_ = 0;
 };
 
