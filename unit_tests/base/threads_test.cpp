@@ -1,8 +1,11 @@
 #include <atomic>
+#include <chrono>
 #include <mutex>
 #include <set>
 #include <stdexcept>
+#include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -149,6 +152,48 @@ TEST(ThreadLimit, of_several_is_the_least) {
     EXPECT_EQ(host_threads(), 1) << "at least";
   }
   EXPECT_EQ(host_threads(), 3);
+}
+
+TEST(Meanwhile, runs_beside_what_is_here_within_the_same_limits) {
+  for (const int threads : {1, 4}) {
+    const Threads some(threads);
+    const ThreadLimit limit(2);
+    const std::thread::id caller = std::this_thread::get_id();
+    std::thread::id beside, here;
+    std::size_t there = 0;
+    detail::meanwhile(
+        [&] {
+          beside = std::this_thread::get_id();
+          there = threads_of_a_loop();
+        },
+        [&] { here = std::this_thread::get_id(); });
+    EXPECT_EQ(here, caller);
+    EXPECT_EQ(beside == caller, threads == 1);
+    EXPECT_EQ(there, threads == 1 ? 1u : 2u);
+  }
+}
+
+TEST(Meanwhile, throws_what_either_threw_after_both_have_ended) {
+  const Threads two(2);
+  const auto fail = [](const char* why) { throw std::runtime_error(why); };
+  const auto why = [&](const auto& beside, const auto& here) {
+    try {
+      detail::meanwhile(beside, here);
+    } catch (const std::runtime_error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  bool has_ended = false;
+  const auto end_late = [&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    has_ended = true;
+  };
+  EXPECT_EQ(why([&] { fail("beside"); }, end_late), "beside");
+  EXPECT_TRUE(std::exchange(has_ended, false));
+  EXPECT_EQ(why(end_late, [&] { fail("here"); }), "here");
+  EXPECT_TRUE(has_ended);
+  EXPECT_EQ(why([&] { fail("beside"); }, [&] { fail("here"); }), "here");
 }
 
 TEST(CpuQuota, of_version_2_is_a_quota_and_a_period) {

@@ -41,8 +41,8 @@ struct FallFrom {
 
   /// Goes on from an edge, unless it is none; `count` were found before.
   KOKKOS_FUNCTION void go_on(FallenEdge edge, Offset count) const {
-    ThreadStack<FallenEdge, StepsOfLaunch::most + 1> open;
-    for (int step = 0; step < steps && edge.high != no_id; ++step) {
+    ThreadStack<FallenEdge, 24> open;
+    for (int step = 0; step < steps && edge.high != no_id && open.has_room_for(2); ++step) {
       const FallenEdge sides[] = {side(edge.high, edge.third), side(edge.low, edge.third)};
       const FallenEdge one = come_to(sides[0], count), other = come_to(sides[1], count);
       if (one.high != no_id && other.high != no_id) open.push(other);
@@ -56,6 +56,8 @@ struct FallFrom {
 
  private:
   KOKKOS_FUNCTION FallenEdge side(Id end, Id third) const {
+    if (edges.owned.has(end)) edges.bring_near(end);  // while it takes keys to know which of these is asked
+    if (edges.owned.has(third)) edges.bring_near(third);
     const bool in_order = keys(end) > keys(third);
     return look_at(in_order ? end : third, in_order ? third : end);
   }
@@ -147,7 +149,7 @@ std::vector<std::array<Id, 3>> FallingEdges::passed() const {
 /// else in one. Returns how many steps there is room for then. Throws OutOfMemory.
 int FallingEdges::reserve(Offset threads) {
   try {
-    make_room_for(threads * StepsOfLaunch::found_in(StepsOfLaunch::most / 2));
+    make_room_for(threads * StepsOfLaunch::found_in(StepsOfLaunch::most_of(threads) / 2));
   } catch (const OutOfMemory&) {
     make_room_for(threads * StepsOfLaunch::found_in(1));
   }
@@ -158,7 +160,7 @@ int FallingEdges::reserve(Offset threads) {
 }
 
 void FallingEdges::make_room_for(Offset more) {
-  constexpr Offset least = 1 << 16;
+  const Offset least = EdgesInKernels::usual_passed(edges_.count);
   make_room(space_, "GALE::left_edges", found_.left, counts_.left, counts_.left + more);
   make_room(space_, "GALE::open_edges", found_.open, counts_.open, counts_.open + more);
   make_room(space_, found_.all, std::max(counts_.all + more, least));

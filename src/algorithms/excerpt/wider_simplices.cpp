@@ -5,6 +5,7 @@
 #include <gale/base/ordered.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/sort.hpp>
+#include <gale/base/stop.hpp>
 
 namespace gale::detail {
 
@@ -81,8 +82,14 @@ void WiderSimplices::number_cells(const Reached& reached, const PathSimplices& c
 void WiderSimplices::name_others() {
   const Offset count = static_cast<Offset>(beyond_.size());
   own_before_.resize(count);
-  parallel_for("GALE::own_before", HostExecutionSpace(), count, [&](Offset i) {
-    own_before_[i] = bisect(Id(0), own_vertices_, [&](Id input) { return mesh_.vertex_id(input) < beyond_[i].id; });
+  for_parts("GALE::own_before", count, threads_for(count), [&](int, Offset begin, Offset end) {
+    Id at = 0;
+    for (Offset i = begin; i < end; ++i) {
+      stop_if_asked_at(i);
+      const auto is_before = [&](Id input) { return mesh_.vertex_id(input) < beyond_[i].id; };
+      at = i == begin ? bisect(at, own_vertices_, is_before) : gallop(at, own_vertices_, is_before);
+      own_before_[i] = at;
+    }
   });
   const auto place = [&](auto at) { return static_cast<Id>(at - own_before_.begin()); };
   const auto first = std::upper_bound(own_before_.begin(), own_before_.end(), 0);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/base/error.hpp>
 
@@ -38,9 +40,18 @@ struct EdgesInKernels {
     }
   }
 
+  /// How many edges, of those that numbers are below, walls pass that few gradients exceed by much: to begin with less
+  /// room would have tables grow again and again.
+  static Offset usual_passed(Offset numbers) { return std::clamp<Offset>(numbers / 128, 1 << 16, 1 << 20); }
+
   /// An edge of an owned vertex to a lower one.
   KOKKOS_FUNCTION PairedEdge operator()(Id high, Id low) const {
     return codes == nullptr ? in_row(high, low) : in_code(high, low);
+  }
+
+  /// Has what is read of a vertex's edges brought near.
+  KOKKOS_FUNCTION void bring_near(Id high) const {
+    prefetch(codes == nullptr ? static_cast<const void*>(pairs_begin + high) : codes + high);
   }
 
  private:

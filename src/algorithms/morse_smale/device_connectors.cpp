@@ -163,7 +163,7 @@ class Connectors {
   /// much, else in one, as where these were more edges than there may be. Returns how many steps there is room for
   /// then. Throws OutOfMemory.
   int reserve(Offset first, Offset threads, Offset most_edges) {
-    const Offset in_some = threads * StepsOfLaunch::found_in(StepsOfLaunch::most / 2);
+    const Offset in_some = threads * StepsOfLaunch::found_in(StepsOfLaunch::most_of(threads) / 2);
     const Offset later = std::min(counts_.edges, most_edges - counts_.edges - in_some);
     if (later < 0 || !has_made_room_for(in_some, first, later))
       make_room_for(threads * StepsOfLaunch::found_in(1), first, 0);
@@ -183,8 +183,9 @@ class Connectors {
   /// Makes room for so many more edges and open triangles; where the table has to grow, for `later` edges besides, as
   /// it takes time to move what is there.
   void make_room_for(Offset more, Offset first, Offset later) {
-    constexpr Offset most_places = Offset(1) << 30, least = Offset(1) << 16;
-    make_room(space_, "GALE::open_triangles", found_.open, counts_.open, counts_.open + more);
+    constexpr Offset most_places = Offset(1) << 30;
+    const Offset least = EdgesInKernels::usual_passed(rows_.edges());
+    make_room(space_, "GALE::open_triangles", found_.open, counts_.open, std::max(counts_.open + more, least));
     const Offset edges = counts_.edges + more;
     if (edges <= found_.edges.room()) return;
     const Offset places = KeyTable::places_for(std::max(edges + later, least));

@@ -71,6 +71,8 @@ struct WallSide {
 template <class Visit>
 KOKKOS_FUNCTION void for_each_side(const WallRows& rows, const WallTriangle& triangle, bool is_critical,
                                    const Visit& visit) {
+  rows.bring_near(triangle.low);  // while it takes keys to know which of these is asked
+  rows.bring_near(triangle.third);
   const bool in_order = rows.keys[triangle.low] > rows.keys[triangle.third];
   WallSide sides[] = {{in_order ? triangle.low : triangle.third, in_order ? triangle.third : triangle.low, {}},
                       {triangle.high, triangle.third, {}},
@@ -84,7 +86,7 @@ KOKKOS_FUNCTION void for_each_side(const WallRows& rows, const WallTriangle& tri
 }
 
 /// Grows walls from an open triangle, one thread of a launch: one way after the other, but for so many steps alone, so
-/// that no launch waits for the longest way. What is left then is left open. Threads tell of what they have found once,
+/// that no launch waits for the longest way, and as long as it can keep what is to be done later. What is left then is left open. Threads tell of what they have found once,
 /// at their ends: counters that all of them change at every step would be what they wait for.
 struct GrowWalls {
   WallRows rows;
@@ -93,11 +95,11 @@ struct GrowWalls {
   int steps;     ///< of each thread
 
   KOKKOS_FUNCTION void operator()(Offset i) const {
-    ThreadStack<std::uint32_t, StepsOfLaunch::most + 2> open;
+    ThreadStack<std::uint32_t, 24> open;
     WallCounts found;
     std::uint32_t number = sink.open(first + i);
     WallTriangle triangle = sink.triangle(number);
-    for (int step = 0; step < steps && number != none; ++step) {
+    for (int step = 0; step < steps && number != none && open.has_room_for(3); ++step) {
       std::uint32_t next = none;
       WallTriangle next_triangle{};
       for_each_side(rows, triangle, sink.is_critical(number), [&](const WallSide& side) {

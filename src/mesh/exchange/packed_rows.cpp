@@ -98,15 +98,16 @@ const char* unpack_column(const char* from, std::int64_t rows, int width, char* 
 
 /// The parts of columns that are packed by themselves, column after column.
 struct ColumnParts {
-  static constexpr std::int64_t most_rows = std::int64_t(1) << 17;
-
   std::int64_t rows;
   int width;
 
-  std::int64_t of_column() const { return (rows - 1) / most_rows + 1; }
+  /// Of a part: few enough for all threads to have some, and many beside what each costs.
+  std::int64_t most_rows() const { return std::clamp<std::int64_t>(rows / 32, 1 << 12, 1 << 17); }
+
+  std::int64_t of_column() const { return (rows - 1) / most_rows() + 1; }
   std::int64_t count() const { return width * of_column(); }
-  std::int64_t first_row(std::int64_t part) const { return part % of_column() * most_rows; }
-  std::int64_t rows_of(std::int64_t part) const { return std::min(rows - first_row(part), most_rows); }
+  std::int64_t first_row(std::int64_t part) const { return part % of_column() * most_rows(); }
+  std::int64_t rows_of(std::int64_t part) const { return std::min(rows - first_row(part), most_rows()); }
 
   /// Where its first word is among all, in bytes.
   std::int64_t begin(std::int64_t part) const { return (first_row(part) * width + part / of_column()) * word_bytes; }

@@ -19,7 +19,7 @@ using PackedPieces = std::vector<std::vector<char>>;
 GALE_EXPORT PackedPieces pack_rows(const void* words, std::int64_t rows, int width);
 
 /// Whether that many rows keep several threads busy.
-constexpr bool are_many_to_pack(std::int64_t rows) { return rows > 1 << 15; }
+constexpr bool are_many_to_pack(std::int64_t rows) { return rows > 1 << 13; }
 
 /// How many bytes the pieces have together, and these one after the other, written by all threads.
 GALE_EXPORT std::int64_t bytes_of(const PackedPieces& pieces);
