@@ -42,7 +42,8 @@ class KeyTable {
   /// The place of a key; `is_new` says whether it was inserted now.
   KOKKOS_FUNCTION std::uint64_t insert(std::uint64_t key, bool& is_new) const {
     for (std::uint64_t place = first_place(key);; place = next_place(place)) {
-      const std::uint64_t there = atomic_compare_exchange(&keys_(place), none, key);  // to read first takes as long again
+      std::uint64_t there = atomic_read(&keys_(place));
+      if (there == none) there = atomic_compare_exchange(&keys_(place), none, key);
       is_new = there == none;
       if (is_new || there == key) return place;
     }

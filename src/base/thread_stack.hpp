@@ -25,6 +25,27 @@ struct StepsOfLaunch {
   }
 };
 
+/// Adds, as atomic_add does, where all threads of a launch add to the same: those of a warp that are here together at
+/// once. As many atomics as threads would be what they wait for.
+KOKKOS_FORCEINLINE_FUNCTION Offset add_in_turn(Offset* to, Offset value) {
+#if defined(__CUDA_ARCH__)
+  const LaneMask lanes = lanes_here();
+  const int first = __ffs(lanes) - 1, lane = static_cast<int>(threadIdx.x + threadIdx.y * blockDim.x) % lanes_per_warp;
+  Offset before = 0, all = 0;  // of lanes below this one, and of all
+  for (LaneMask left = lanes; left != 0; left &= left - 1) {
+    const int other = __ffs(left) - 1;
+    const Offset more = __shfl_sync(lanes, value, other);
+    if (other < lane) before += more;
+    all += more;
+  }
+  Offset there = 0;
+  if (lane == first && all != 0) there = atomic_add(to, all);
+  return __shfl_sync(lanes, there, first) + before;
+#else
+  return value == 0 ? Offset(0) : atomic_add(to, value);
+#endif
+}
+
 /// What a thread of a kernel has to come back to, the latest first: up to `capacity` entries, in its own memory.
 template <class T, int capacity>
 class ThreadStack {
@@ -41,8 +62,7 @@ class ThreadStack {
 
   /// Appends all entries to a list of so many that all threads share, which has room for them.
   KOKKOS_FUNCTION void append_to(const Array<T, WorkerMemory>& list, Offset* count) const {
-    if (size_ == 0) return;
-    const Offset first = atomic_add(count, Offset(size_));
+    const Offset first = add_in_turn(count, Offset(size_));
     for (int i = 0; i < size_; ++i) list(first + i) = entries_[i];
   }
 

@@ -41,6 +41,7 @@ struct FallFrom {
 
   /// Goes on from an edge, unless it is none; `count` were found before.
   KOKKOS_FUNCTION void go_on(FallenEdge edge, Offset count) const {
+    const LaneMask lanes = lanes_here();
     ThreadStack<FallenEdge, 24> open;
     for (int step = 0; step < steps && edge.high != no_id && open.has_room_for(2); ++step) {
       const FallenEdge sides[] = {side(edge.high, edge.third), side(edge.low, edge.third)};
@@ -50,8 +51,9 @@ struct FallFrom {
       if (edge.high == no_id && !open.is_empty()) edge = open.pop();
     }
     if (edge.high != no_id) open.push(edge);
+    meet(lanes);
     open.append_to(found.open, &found.counts(0).open);
-    if (count > 0) atomic_add(&found.counts(0).all, count);
+    add_in_turn(&found.counts(0).all, count);
   }
 
  private:

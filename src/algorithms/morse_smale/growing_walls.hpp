@@ -95,6 +95,7 @@ struct GrowWalls {
   int steps;     ///< of each thread
 
   KOKKOS_FUNCTION void operator()(Offset i) const {
+    const LaneMask lanes = lanes_here();
     ThreadStack<std::uint32_t, 24> open;
     WallCounts found;
     std::uint32_t number = sink.open(first + i);
@@ -118,9 +119,10 @@ struct GrowWalls {
       triangle = next_triangle;
     }
     if (number != none) open.push(number);
+    meet(lanes);
     open.append_to(sink.open, &sink.counts(0).open);
-    if (found.edges > 0) atomic_add(&sink.counts(0).edges, found.edges);
-    if (found.rims > 0) atomic_add(&sink.counts(0).rims, found.rims);
+    add_in_turn(&sink.counts(0).edges, found.edges);
+    add_in_turn(&sink.counts(0).rims, found.rims);
   }
 
  private:
