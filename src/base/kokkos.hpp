@@ -227,15 +227,6 @@ KOKKOS_FORCEINLINE_FUNCTION Four load_four(const Four* from) {
 #endif
 }
 
-/// Has what lies there brought near, where it is read soon and by whoever.
-KOKKOS_FORCEINLINE_FUNCTION void prefetch([[maybe_unused]] const void* address) {
-#if defined(__CUDA_ARCH__)
-  asm volatile("prefetch.global.L1 [%0];" ::"l"(address));
-#elif !defined(GALE_ON_DEVICE)
-  __builtin_prefetch(address);
-#endif
-}
-
 /// A bit for each lane of a warp.
 #if defined(KOKKOS_ENABLE_HIP)
 using LaneMask = unsigned long long;

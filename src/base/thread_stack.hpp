@@ -7,9 +7,9 @@
 
 namespace gale::detail {
 
-/// How many steps each thread of a launch takes at most. Where threads are many these are few, so that no launch waits
-/// for the longest way; where long ways are all that is left, as many as take longer than to launch threads anew. A step
-/// finds two entries at most, a first one three, and a thread leaves as many at most to come back to.
+/// How many steps each thread of a launch takes at most: few where threads are many, so that no launch waits for the
+/// longest way; where few long ways are left, as many as take longer than another launch. A step finds two entries at
+/// most, a first one three, and a thread leaves as many at most to come back to.
 struct StepsOfLaunch {
   static constexpr Offset found_in(int steps) { return 2 * Offset(steps) + 1; }
 
@@ -25,8 +25,8 @@ struct StepsOfLaunch {
   }
 };
 
-/// Adds, as atomic_add does, where all threads of a launch add to the same: those of a warp that are here together at
-/// once. As many atomics as threads would be what they wait for.
+/// Adds, as atomic_add does, what all threads of a launch add to one place: those of a warp that are here together have
+/// one do it for all, as the place takes one after the other.
 KOKKOS_FORCEINLINE_FUNCTION Offset add_in_turn(Offset* to, Offset value) {
 #if defined(__CUDA_ARCH__)
   const LaneMask lanes = lanes_here();

@@ -58,8 +58,6 @@ struct FallFrom {
 
  private:
   KOKKOS_FUNCTION FallenEdge side(Id end, Id third) const {
-    if (edges.owned.has(end)) edges.bring_near(end);  // while it takes keys to know which of these is asked
-    if (edges.owned.has(third)) edges.bring_near(third);
     const bool in_order = keys(end) > keys(third);
     return look_at(in_order ? end : third, in_order ? third : end);
   }

@@ -30,8 +30,8 @@ struct FallenEdges {
 
 /// Edges that fall along a gradient that kernels found: from one that is paired with a triangle to the other edges of
 /// that triangle, and so on. Each is passed once. A thread goes some steps down one way after the other, and leaves the
-/// rest to the next launch. Takes 15 to 40 bytes an edge in the workers' memory, and up to 900 for each of those that
-/// it begins with, where there is room. Refers to the gradient.
+/// rest to the next launch. Takes 15 to 40 bytes an edge in the workers' memory, and where there is room up to 900 for
+/// each of those that it begins with, or 4 MB for few of them. Refers to the gradient.
 class FallingEdges {
  public:
   /// Throws OutOfMemory.

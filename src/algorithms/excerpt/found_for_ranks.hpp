@@ -40,7 +40,7 @@ struct FoundFor : ReachedLists<FoundList> {
   template <class PlaceOf>
   Id add_step(Id cell, Id next, const PlaceOf& place_of) {
     const Id place = place_of(cell);
-    cell_steps.push_back({place, next >= 0        ? place_of(next)
+    cell_steps.push_back({place, next >= 0       ? place_of(next)
                                  : next == no_id ? no_id
                                                  : step_outside(corner_outside(next))});
     return place;

@@ -230,8 +230,7 @@ void rename_all(std::vector<T>& list, const Rename& rename) {
 
 }  // namespace
 
-void name_in_excerpt(const WiderGradient& wider,
-                     const std::function<Separatrices<TriangleVertices>()>& find_connectors,
+void name_in_excerpt(const WiderGradient& wider, const std::function<Separatrices<TriangleVertices>()>& find_connectors,
                      MorseSmaleComplex& complex) {
   std::shared_ptr<PassedSimplices> passed;
   const auto mark = [&] { passed = std::make_shared<PassedSimplices>(wider, complex.descending, complex.ascending); };

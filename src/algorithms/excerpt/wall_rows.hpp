@@ -32,11 +32,6 @@ struct WallRows {
     return own.owned.has(high) ? own(high, low) : told(high, low);
   }
 
-  /// Has what is read of a vertex's edges brought near, if this rank knows it by itself.
-  KOKKOS_FUNCTION void bring_near(Id high) const {
-    if (own.owned.has(high)) own.bring_near(high);
-  }
-
   /// Numbers of edges are below.
   Offset edges() const { return own.count + told.edges.places(); }
 };

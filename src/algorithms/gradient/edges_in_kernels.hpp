@@ -49,11 +49,6 @@ struct EdgesInKernels {
     return codes == nullptr ? in_row(high, low) : in_code(high, low);
   }
 
-  /// Has what is read of a vertex's edges brought near.
-  KOKKOS_FUNCTION void bring_near(Id high) const {
-    prefetch(codes == nullptr ? static_cast<const void*>(pairs_begin + high) : codes + high);
-  }
-
  private:
   /// Reads it from the row of its higher end: its number is the place of the word.
   KOKKOS_FUNCTION PairedEdge in_row(Id high, Id low) const {

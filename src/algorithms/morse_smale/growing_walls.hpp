@@ -71,8 +71,6 @@ struct WallSide {
 template <class Visit>
 KOKKOS_FUNCTION void for_each_side(const WallRows& rows, const WallTriangle& triangle, bool is_critical,
                                    const Visit& visit) {
-  rows.bring_near(triangle.low);  // while it takes keys to know which of these is asked
-  rows.bring_near(triangle.third);
   const bool in_order = rows.keys[triangle.low] > rows.keys[triangle.third];
   WallSide sides[] = {{in_order ? triangle.low : triangle.third, in_order ? triangle.third : triangle.low, {}},
                       {triangle.high, triangle.third, {}},
@@ -86,8 +84,9 @@ KOKKOS_FUNCTION void for_each_side(const WallRows& rows, const WallTriangle& tri
 }
 
 /// Grows walls from an open triangle, one thread of a launch: one way after the other, but for so many steps alone, so
-/// that no launch waits for the longest way, and as long as it can keep what is to be done later. What is left then is left open. Threads tell of what they have found once,
-/// at their ends: counters that all of them change at every step would be what they wait for.
+/// that no launch waits for the longest way, and while it can keep what it comes back to. What is left then is left
+/// open. Threads tell of what they have found once, at their ends: counters that all of them change at every step would
+/// be what they wait for.
 struct GrowWalls {
   WallRows rows;
   WallSink sink;

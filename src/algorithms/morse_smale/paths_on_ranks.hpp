@@ -85,8 +85,8 @@ struct ExitLinks {
 class PathsOnRanks {
  public:
   /// Finds those of paths from all simplices whose successors this rank knows, and from `others` (GALE's ids), whose
-  /// successors may be elsewhere. `names`, 0 or more, are those of the rank's critical simplices, by which all ranks are to
-  /// know them. Collective; throws gale::Error on all ranks. Refers to `simplices`.
+  /// successors may be elsewhere. `names`, 0 or more, are those of the rank's critical simplices, by which all ranks
+  /// are to know them. Collective; throws gale::Error on all ranks. Refers to `simplices`.
   PathsOnRanks(const PathSimplices& simplices, const Array<const std::int64_t, HostMemory>& names,
                const std::vector<Id>& others = {});
 
@@ -105,8 +105,8 @@ class PathsOnRanks {
   /// then the exits.
   Id ends() const { return criticals_ + static_cast<Id>(exits_.extent(0)); }
 
-  /// The name of the critical simplex at which the paths that end here so end finally; -1 if that is outside, or an exit
-  /// that no path comes to that was asked for.
+  /// The name of the critical simplex at which the paths that end here so end finally; -1 if that is outside, or an
+  /// exit that no path comes to that was asked for.
   std::int64_t final_name(Id end) const {
     if (end == no_id) return -1;
     if (end < criticals_) return names_(end);
@@ -129,7 +129,7 @@ class PathsOnRanks {
   const PathSimplices& simplices_;
   const Id criticals_;
   const Array<const std::int64_t, HostMemory> names_;  ///< of the critical simplices
-  Array<Id, HostMemory> exits_;  ///< ascending
+  Array<Id, HostMemory> exits_;                        ///< ascending
   Mirrored<Id> ends_;
   Array<PathStop, HostMemory> stops_;  ///< of each exit: where paths from there are after 2^(rounds-1) changes of ranks
   Array<ExitLink, HostMemory> links_;  ///< of each exit
