@@ -8,15 +8,15 @@
 
 namespace gale::detail {
 
-EdgeFall::EdgeFall(const DiscreteGradient& gradient)
-    : gradient_(gradient), is_on_host_(!gradient.store().is_from_kernels()) {}
+EdgeFall::EdgeFall(const DiscreteGradient& gradient, bool expects_all)
+    : gradient_(gradient), expects_all_(expects_all), is_on_host_(!gradient.store().is_from_kernels()) {}
 
 /// Falls on the host from the beginning if the device is full.
 std::vector<std::array<Id, 2>> EdgeFall::fall(std::vector<std::array<Id, 2>> edges) {
   if (is_on_host_) return fall_on_host(std::move(edges));
   starts_.insert(starts_.end(), edges.begin(), edges.end());
   try {
-    if (!by_kernels_) by_kernels_ = std::make_unique<FallingEdges>(gradient_);
+    if (!by_kernels_) by_kernels_ = std::make_unique<FallingEdges>(gradient_, expects_all_);
     return by_kernels_->fall(edges);
   } catch (const OutOfMemory&) {
     by_kernels_.reset();

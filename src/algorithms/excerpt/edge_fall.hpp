@@ -14,7 +14,8 @@ namespace gale::detail {
 /// the gradient, else on all threads of the host. Refers to the gradient.
 class EdgeFall {
  public:
-  explicit EdgeFall(const DiscreteGradient& gradient);
+  /// With `expects_all` it begins with room for what all walls pass.
+  explicit EdgeFall(const DiscreteGradient& gradient, bool expects_all = false);
 
   /// Lets some edges fall, the higher ends first, and all that they come to. Returns those of these that are other
   /// ranks' to follow: in the calls before perhaps, too.
@@ -29,6 +30,7 @@ class EdgeFall {
 
   const DiscreteGradient& gradient_;
   std::unique_ptr<FallingEdges> by_kernels_;
+  const bool expects_all_;
   bool is_on_host_;
   std::vector<std::array<Id, 2>> starts_;  ///< all that kernels were given
   SharedSet known_;                        ///< on the host

@@ -101,8 +101,10 @@ struct PutPassed {
 
 }  // namespace
 
-FallingEdges::FallingEdges(const DiscreteGradient& gradient)
-    : edges_(gradient), keys_(gradient.order().keys_in<WorkerMemory>()) {
+FallingEdges::FallingEdges(const DiscreteGradient& gradient, bool expects_all)
+    : edges_(gradient),
+      expected_(expects_all ? EdgesInKernels::usual_passed(edges_.count) : EdgesInKernels::few_passed),
+      keys_(gradient.order().keys_in<WorkerMemory>()) {
   found_.counts = allocate<decltype(found_.counts)>("GALE::fallen_counts", 1);
   fill("GALE::fallen_counts", space_, found_.counts, FallenCounts());
 }
@@ -149,9 +151,9 @@ std::vector<std::array<Id, 3>> FallingEdges::passed() const {
 /// else in one. Returns how many steps there is room for then. Throws OutOfMemory.
 int FallingEdges::reserve(Offset threads) {
   try {
-    make_room_for(threads * StepsOfLaunch::found_in(StepsOfLaunch::most_of(threads) / 2));
+    make_room_for(threads * StepsOfLaunch::found_in(StepsOfLaunch::most_of(threads) / 2), expected_);
   } catch (const OutOfMemory&) {
-    make_room_for(threads * StepsOfLaunch::found_in(1));
+    make_room_for(threads * StepsOfLaunch::found_in(1), EdgesInKernels::few_passed);
   }
   const auto room_of = [](const auto& array) { return static_cast<Offset>(array.extent(0)); };
   const Offset room = std::min(
@@ -159,8 +161,7 @@ int FallingEdges::reserve(Offset threads) {
   return StepsOfLaunch::in(room, threads);
 }
 
-void FallingEdges::make_room_for(Offset more) {
-  const Offset least = EdgesInKernels::usual_passed(edges_.count);
+void FallingEdges::make_room_for(Offset more, Offset least) {
   make_room(space_, "GALE::left_edges", found_.left, counts_.left, counts_.left + more);
   make_room(space_, "GALE::open_edges", found_.open, counts_.open, counts_.open + more);
   make_room(space_, found_.all, std::max(counts_.all + more, least));

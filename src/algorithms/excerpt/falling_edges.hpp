@@ -31,11 +31,12 @@ struct FallenEdges {
 /// Edges that fall along a gradient that kernels found: from one that is paired with a triangle to the other edges of
 /// that triangle, and so on. Each is passed once. A thread goes some steps down one way after the other, and leaves the
 /// rest to the next launch. Takes 15 to 40 bytes an edge in the workers' memory, and where there is room up to 900 for
-/// each of those that it begins with, or 4 MB for few of them. Refers to the gradient.
+/// each of those that it begins with, or 4 MB for few of them; 24 MB to begin with where many are expected. Refers to
+/// the gradient.
 class FallingEdges {
  public:
-  /// Throws OutOfMemory.
-  explicit FallingEdges(const DiscreteGradient& gradient);
+  /// Begins with room for about as many edges as all walls pass, if these are to be expected. Throws OutOfMemory.
+  FallingEdges(const DiscreteGradient& gradient, bool expects_all);
 
   /// Lets some edges fall, the higher ends first, and all that they come to. Returns those of these that are other
   /// ranks' to follow, once each in all calls. Throws OutOfMemory, and is of no use then.
@@ -46,11 +47,12 @@ class FallingEdges {
 
  private:
   int reserve(Offset threads);
-  void make_room_for(Offset more);
+  void make_room_for(Offset more, Offset least);
   void take_counts();
 
   const WorkerSpace space_{};
   const EdgesInKernels edges_;
+  const Offset expected_;
   const Array<const std::uint64_t, WorkerMemory> keys_;
   Array<Id, WorkerMemory> ends_;  ///< of the edges that a call begins with
   FallenEdges found_;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <tuple>
 #include <type_traits>
+#include <utility>
 
 #include <gale/algorithms/excerpt/found_for_ranks.hpp>
 #include <gale/algorithms/excerpt/numbered_set.hpp>
@@ -35,6 +36,25 @@ void for_each_vertex_of(FoundFor& found, const Visit& visit) {
   visit_all(found.cells, 4, [](ReachedCell& cell) { return cell.corners.data(); });
 }
 
+/// Takes the i-th lists for all ranks, and joins them.
+template <std::size_t i>
+void join(std::vector<FoundFor>& found, Reached& sent) {
+  auto& to = std::get<i>(sent.all());
+  std::vector<std::int64_t> counts;
+  for (FoundFor& one : found) counts.push_back(static_cast<std::int64_t>(std::get<i>(one.all()).size()));
+  to = room_by_rank<std::decay_t<decltype(to.entries(0))>>("GALE::reached", counts);
+  for (std::size_t r = 0; r < found.size(); ++r) {
+    auto& from = std::get<i>(found[r].all());
+    std::copy(from.begin(), from.end(), to.entries.data() + to.begin[r]);
+    from = {};
+  }
+}
+
+template <std::size_t... i>
+void join_all(std::vector<FoundFor>& found, Reached& sent, std::index_sequence<i...>) {
+  (join<i>(found, sent), ...);
+}
+
 }  // namespace
 
 void FoundForRanks::number_vertices() {
@@ -63,9 +83,9 @@ void FoundForRanks::number_vertices(FoundFor& found) const {
   for_each_vertex_of(found, [&](Id& vertex) { vertex = reached[vertex]; });
 }
 
-std::vector<std::int64_t> FoundForRanks::bytes() {
+std::vector<std::int64_t> FoundForRanks::bytes() const {
   std::vector<std::int64_t> bytes;
-  for (FoundFor& found : found_) {
+  for (const FoundFor& found : found_) {
     std::int64_t all = 0;
     for_each_list_of(found, [&](auto& list) { all += static_cast<std::int64_t>(list.size() * sizeof(list[0])); });
     bytes.push_back(all);
@@ -76,28 +96,10 @@ std::vector<std::int64_t> FoundForRanks::bytes() {
 Reached FoundForRanks::send() {
   const Ranks& ranks = order_.mesh().exchange().ranks();
   Reached sent;
-  together(ranks, [&] {
-    const auto join = [&](auto from, auto& to) {
-      std::vector<std::int64_t> counts;
-      for (const FoundFor& found : found_) counts.push_back(static_cast<std::int64_t>((found.*from).size()));
-      to = room_by_rank<typename std::decay_t<decltype(found_[0].*from)>::value_type>("GALE::reached", counts);
-      for (std::size_t r = 0; r < found_.size(); ++r) {
-        std::copy((found_[r].*from).begin(), (found_[r].*from).end(), to.entries.data() + to.begin[r]);
-        found_[r].*from = {};
-      }
-    };
-    join(&FoundFor::vertices, sent.vertices);
-    join(&FoundFor::cells, sent.cells);
-    join(&FoundFor::vertex_steps, sent.vertex_steps);
-    join(&FoundFor::edges, sent.edges);
-    join(&FoundFor::cell_steps, sent.cell_steps);
-    join(&FoundFor::cell_forks, sent.cell_forks);
-    join(&FoundFor::critical_triangles, sent.critical_triangles);
-    join(&FoundFor::critical_stars, sent.critical_stars);
-  });
+  together(ranks, [&] { join_all(found_, sent, std::make_index_sequence<std::tuple_size_v<decltype(sent.all())>>()); });
   Reached reached;
   reached.all() = std::apply(
-      [&](const auto&... lists) { return exchange_lists(ranks, "GALE::received_reached", lists...); }, sent.all());
+      [&](auto&... lists) { return exchange_lists(ranks, "GALE::received_reached", std::move(lists)...); }, sent.all());
   return reached;
 }
 

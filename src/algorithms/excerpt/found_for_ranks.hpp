@@ -18,12 +18,10 @@ struct IsSeen {};
 template <class T>
 using FoundList = std::vector<T>;
 
-/// What a rank has found for one that asks, and where it has been for it. Vertices are called by GALE's ids, until all
-/// are known.
+/// What a rank has found for one that asks. Vertices are called by GALE's ids, until all are known.
 struct FoundFor : ReachedLists<FoundList> {
   std::vector<Id> more_vertices;  ///< that no simplex has
   HashTable<Id> cell_places;
-  HashTable<IsSeen> fallen_vertices, fallen_edges, told_edges, risen_cells, risen_edges;
 
   /// The place of a cell among `cells`, where it is put if it isn't there yet.
   Id place_of(Id cell, const CellReader& corners_of, const PathSimplices& simplices) {
@@ -37,12 +35,15 @@ struct FoundFor : ReachedLists<FoundList> {
   }
 
   /// Adds the step from a cell to its successor, or of one that has none; returns the cell's place.
-  template <class PlaceOf>
-  Id add_step(Id cell, Id next, const PlaceOf& place_of) {
-    const Id place = place_of(cell);
-    cell_steps.push_back({place, next >= 0       ? place_of(next)
-                                 : next == no_id ? no_id
-                                                 : step_outside(corner_outside(next))});
+  Id add_step(Id cell, Id next, const CellReader& corners_of, const PathSimplices& simplices) {
+    const Id place = place_of(cell, corners_of, simplices);
+    Id there = no_id;
+    if (next >= 0) {
+      there = place_of(next, corners_of, simplices);
+    } else if (next != no_id) {
+      there = step_outside(corner_outside(next));
+    }
+    cell_steps.push_back({place, there});
     return place;
   }
 };
@@ -58,7 +59,7 @@ class FoundForRanks {
   void number_vertices();
 
   /// How many bytes were found for each rank, once vertices are numbered.
-  std::vector<std::int64_t> bytes();
+  std::vector<std::int64_t> bytes() const;
 
   /// Sends it to those who have asked. Collective.
   Reached send();

@@ -237,7 +237,7 @@ void name_in_excerpt(const WiderGradient& wider, const std::function<Separatrice
   const auto connect = [&] {
     if (find_connectors) complex.connectors = find_connectors();
   };
-  if (complex.gradient.store().is_from_kernels()) {
+  if (have_device && find_connectors && complex.gradient.store().is_from_kernels()) {
     meanwhile(mark, connect);
   } else {
     mark();

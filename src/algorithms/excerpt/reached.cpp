@@ -32,6 +32,11 @@ struct SentStep {
   std::array<GlobalId, 3> simplex;
 };
 
+/// Where ways have been for one that asks.
+struct Been {
+  HashTable<IsSeen> fallen_vertices, fallen_edges, told_edges, risen_cells, risen_edges;
+};
+
 class Reacher {
  public:
   Reacher(const DiscreteGradient& gradient, const WantedWays& ways, Structure* rows)
@@ -47,7 +52,8 @@ class Reacher {
         cell_successors_(gradient.store().cell_successors(), gradient.store().further_successors.empty()),
         further_(gradient.store().further_successors),
         edges_(gradient),
-        found_(gradient.order()) {
+        found_(gradient.order()),
+        been_(ranks_.size()) {
     if (!ways.rising_walls) return;
     consumer_ = rows->consumer();
     star_.emplace(mesh_);
@@ -61,7 +67,7 @@ class Reacher {
     for (const Id vertex : critical.vertices) go({StepKind::falling_vertex, asker, {vertex}});
     for (const Id cell : critical.cells) go({StepKind::rising_cell, asker, {cell}});
     for (const auto& [high, low] : critical.edges) {
-      tell_edge(found, high, low);
+      tell_edge(asker, high, low);
       if (ways_.falling_paths) {
         for (const Id vertex : {high, low}) go({StepKind::falling_vertex, asker, {vertex}});
       }
@@ -135,21 +141,21 @@ class Reacher {
   /// Goes on from a simplex, unless that was done: here, or where the rank is that knows how. Cells are known to be
   /// another rank's when they are taken.
   void go(const LocalStep& step) {
-    FoundFor& found = found_of(step.asker);
+    Been& been = been_[step.asker];
     const auto [a, b, c] = step.simplex;
     Id highest = a;
     switch (step.kind) {
       case StepKind::falling_vertex:
-        if (!found.fallen_vertices.insert(static_cast<std::uint64_t>(a)).second) return;
+        if (!been.fallen_vertices.insert(static_cast<std::uint64_t>(a)).second) return;
         break;
       case StepKind::falling_edge:
-        if (!found.fallen_edges.insert(pair_key(a, b)).second) return;
+        if (!been.fallen_edges.insert(pair_key(a, b)).second) return;
         break;
       case StepKind::rising_cell:
-        if (found.risen_cells.insert(static_cast<std::uint64_t>(a)).second) here_.push_back(step);
+        if (been.risen_cells.insert(static_cast<std::uint64_t>(a)).second) here_.push_back(step);
         return;
       case StepKind::rising_edge:
-        if (!found.risen_edges.insert(pair_key(a, b)).second) return;
+        if (!been.risen_edges.insert(pair_key(a, b)).second) return;
         break;
       case StepKind::rising_triangle:
         highest = higher(a, higher(b, c));
@@ -190,7 +196,7 @@ class Reacher {
       case StepKind::falling_vertex:
         return take_vertex(step.asker, found, a);
       case StepKind::falling_edge: {
-        const Id third = tell_edge(found, a, b);
+        const Id third = tell_edge(step.asker, a, b);
         if (third < 0) return;
         fall_to(step.asker, a, third);
         return fall_to(step.asker, b, third);
@@ -203,7 +209,7 @@ class Reacher {
         for (const Id third : star_->thirds()) go({StepKind::rising_triangle, step.asker, {a, b, third}});
         return;
       case StepKind::rising_triangle:
-        return cross(step.asker, found, step.simplex);
+        return cross(step.asker, step.simplex);
     }
   }
 
@@ -234,7 +240,7 @@ class Reacher {
       left_cells_.push_back({StepKind::rising_cell, asker, {cell}});
       return;
     }
-    const Id place = found.add_step(cell, next, [&](Id one) { return cell_place(found, one); });
+    const Id place = found.add_step(cell, next, corners_, cells_);
     if (next >= 0) go({StepKind::rising_cell, asker, {next}});
     auto at = std::lower_bound(further_.begin(), further_.end(), std::make_pair(cell, Id(0)));
     for (; at != further_.end() && at->first == cell; ++at) {
@@ -244,18 +250,18 @@ class Reacher {
   }
 
   /// From a triangle to the edge that it is paired with, if there is one.
-  void cross(int asker, FoundFor& found, std::array<Id, 3> triangle) {
+  void cross(int asker, std::array<Id, 3> triangle) {
     std::sort(triangle.begin(), triangle.end(), [this](Id a, Id b) { return edges_.is_higher(a, b); });
     for (int i = 1; i < 3; ++i) {
-      if (tell_edge(found, triangle[0], triangle[i]) == triangle[3 - i])
+      if (tell_edge(asker, triangle[0], triangle[i]) == triangle[3 - i])
         go({StepKind::rising_edge, asker, {triangle[0], triangle[i]}});
     }
   }
 
   /// Notes what an edge is paired with for the rank that asks, once; returns it as EdgesOnHost does.
-  Id tell_edge(FoundFor& found, Id high, Id low) {
+  Id tell_edge(int asker, Id high, Id low) {
     const Id third = edges_.third(high, low);
-    if (found.told_edges.insert(pair_key(high, low)).second) found.edges.push_back({high, low, third});
+    if (been_[asker].told_edges.insert(pair_key(high, low)).second) found_of(asker).edges.push_back({high, low, third});
     return third;
   }
 
@@ -275,6 +281,7 @@ class Reacher {
   std::unique_ptr<Consumer> consumer_;  // of rising walls
   std::optional<EdgeStar> star_;
   FoundForRanks found_;
+  std::vector<Been> been_;  ///< by asker
   std::vector<LocalStep> here_, left_cells_;
   std::vector<std::pair<int, SentStep>> elsewhere_;
 };

@@ -50,8 +50,15 @@ struct ReachedLists {
   List<std::array<Id, 3>> critical_triangles;  ///< from the highest vertex to the lowest
   List<std::array<Id, 4>> critical_stars;      ///< a critical facet of cells, an edge with no_id behind it, and a cell
 
-  auto all() {
-    return std::tie(vertices, cells, vertex_steps, edges, cell_steps, cell_forks, critical_triangles, critical_stars);
+  /// Refers to all of these lists.
+  auto all() { return all_of(*this); }
+  auto all() const { return all_of(*this); }
+
+ private:
+  template <class Lists>
+  static auto all_of(Lists& of) {
+    return std::tie(of.vertices, of.cells, of.vertex_steps, of.edges, of.cell_steps, of.cell_forks,
+                    of.critical_triangles, of.critical_stars);
   }
 };
 

@@ -13,6 +13,7 @@ namespace gale::detail {
 
 namespace {
 
+/// What goes on along a way.
 enum class WayKind : std::int32_t { falling_vertices, rising_cells, falling_edges };
 
 /// A way that a rank asks another to follow on, for one whose way it was at first.
@@ -47,17 +48,30 @@ class PathsBeyond {
     if (starts.empty()) return;
     std::sort(starts.begin(), starts.end());
     starts.erase(std::unique(starts.begin(), starts.end()), starts.end());
-    const Mirrored<Id>& successors = simplices_.successors();
-    const SteppedPaths paths = in_worker_or_host_space(successors.on_device(), [&](const auto& space) {
-      return step_along_paths(space, successors.in<MemoryOf<std::decay_t<decltype(space)>>>(), starts);
-    });
     HashTable<IsSeen> passed;
-    for (Offset i = 0; i < static_cast<Offset>(paths.simplices.extent(0)); ++i) {
-      stop_if_asked_at(i);
-      const Id simplex = paths.simplices(i), next = paths.next(i);
-      if (next == DiscreteGradient::elsewhere) continue;
-      if (passed.insert(static_cast<std::uint64_t>(simplex)).second) visit(simplex, next);
-    }
+    const auto pass = [&](Id simplex, Id next) {
+      if (next == DiscreteGradient::elsewhere || !passed.insert(static_cast<std::uint64_t>(simplex)).second)
+        return false;
+      visit(simplex, next);
+      return true;
+    };
+    const Mirrored<Id>& successors = simplices_.successors();
+    in_worker_or_host_space(successors.on_device(), [&](const auto& space) {
+      using Space = std::decay_t<decltype(space)>;
+      if constexpr (is_device<Space>) {
+        const SteppedPaths paths = step_along_paths(space, successors.in<MemoryOf<Space>>(), starts);
+        for (Offset i = 0; i < static_cast<Offset>(paths.simplices.extent(0)); ++i) {
+          stop_if_asked_at(i);
+          pass(paths.simplices(i), paths.next(i));
+        }
+      } else {
+        const Id* const next = successors.in<HostMemory>().data();
+        for (Id at : starts) {
+          stop_if_asked();
+          while (at >= 0 && pass(at, next[at])) at = next[at];
+        }
+      }
+    });
   }
 
  private:
@@ -94,7 +108,7 @@ class WaysBeyond {
   void fall() {
     for (int asker = 0; asker < ranks_.size(); ++asker) {
       if (falling_[asker].empty()) continue;
-      if (!falls_[asker]) falls_[asker] = std::make_unique<EdgeFall>(gradient_);
+      if (!falls_[asker]) falls_[asker] = std::make_unique<EdgeFall>(gradient_, asker == ranks_.rank());
       for (const auto& [high, low] : falls_[asker]->fall(std::exchange(falling_[asker], {})))
         hand_on(mesh_.exchange().owner(input_[high]), {WayKind::falling_edges, asker, global(high), global(low)});
     }
@@ -119,16 +133,16 @@ class WaysBeyond {
 
   /// What was found for the others, when nobody has anything left.
   FoundForRanks& found() {
+    falls_[ranks_.rank()].reset();
+    for (int asker = 0; asker < ranks_.size(); ++asker) {
+      if (falls_[asker]) found_[asker].edges = falls_[asker]->passed();
+      falls_[asker].reset();
+    }
     const CellReader corners = mesh_.cell_reader();
     for (int asker = 0; asker < ranks_.size(); ++asker) {
-      if (asker == ranks_.rank()) continue;
       FoundFor& found = found_[asker];
       vertices_.follow(asker, [&](Id vertex, Id next) { found.vertex_steps.push_back({vertex, next}); });
-      cells_.follow(asker, [&](Id cell, Id next) {
-        found.add_step(cell, next, [&](Id one) { return found.place_of(one, corners, cell_simplices_); });
-      });
-      if (falls_[asker]) found.edges = falls_[asker]->passed();
-      falls_[asker].reset();
+      cells_.follow(asker, [&](Id cell, Id next) { found.add_step(cell, next, corners, cell_simplices_); });
     }
     found_.number_vertices();
     return found_;

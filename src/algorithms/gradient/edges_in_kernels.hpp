@@ -40,9 +40,11 @@ struct EdgesInKernels {
     }
   }
 
-  /// How many edges, of those that numbers are below, walls pass that few gradients exceed by much: to begin with less
-  /// room would have tables grow again and again.
-  static Offset usual_passed(Offset numbers) { return std::clamp<Offset>(numbers / 128, 1 << 16, 1 << 20); }
+  /// Estimates how many edges walls pass, from how many are numbered: tables that begin smaller grow again and again.
+  static Offset usual_passed(Offset numbers) { return std::clamp<Offset>(numbers / 128, few_passed, 1 << 20); }
+
+  /// Suffices for small tables to begin with.
+  static constexpr Offset few_passed = 1 << 16;
 
   /// An edge of an owned vertex to a lower one.
   KOKKOS_FUNCTION PairedEdge operator()(Id high, Id low) const {

@@ -166,25 +166,26 @@ class Connectors {
     const Offset in_some = threads * StepsOfLaunch::found_in(StepsOfLaunch::most_of(threads) / 2);
     const Offset later = std::min(counts_.edges, most_edges - counts_.edges - in_some);
     if (later < 0 || !has_made_room_for(in_some, first, later))
-      make_room_for(threads * StepsOfLaunch::found_in(1), first, 0);
+      make_room_for(threads * StepsOfLaunch::found_in(1), first, 0, EdgesInKernels::few_passed);
     const Offset room = std::min(found_.edges.room() - counts_.edges, Offset(found_.open.extent(0)) - counts_.open);
     return StepsOfLaunch::in(room, threads);
   }
 
   bool has_made_room_for(Offset more, Offset first, Offset later) {
     try {
-      make_room_for(more, first, later);
+      const bool are_all = found_.walls == static_cast<Id>(critical_.size());
+      make_room_for(more, first, later,
+                    are_all ? EdgesInKernels::usual_passed(rows_.edges()) : EdgesInKernels::few_passed);
       return true;
     } catch (const OutOfMemory&) {
       return false;
     }
   }
 
-  /// Makes room for so many more edges and open triangles; where the table has to grow, for `later` edges besides, as
-  /// it takes time to move what is there.
-  void make_room_for(Offset more, Offset first, Offset later) {
+  /// Makes room for so many more edges and open triangles, and `least` of each in all; where the table has to grow, for
+  /// `later` edges besides, as it takes time to move what is there.
+  void make_room_for(Offset more, Offset first, Offset later, Offset least) {
     constexpr Offset most_places = Offset(1) << 30;
-    const Offset least = EdgesInKernels::usual_passed(rows_.edges());
     make_room(space_, "GALE::open_triangles", found_.open, counts_.open, std::max(counts_.open + more, least));
     const Offset edges = counts_.edges + more;
     if (edges <= found_.edges.room()) return;

@@ -238,7 +238,7 @@ Mirrored<Id> ascending_manifolds(const DiscreteGradient& gradient, PathExits* ex
 
 void find_exits(const DiscreteGradient& gradient, PathSimplices::Kind kind, PathExits& exits) {
   const auto simplices = PathSimplices::make(gradient, kind);
-  const PathsOnRanks paths(*simplices, places_among_all(*simplices), exits.starts.simplices);
+  const PathsOnRanks paths(*simplices, exits.starts.simplices);
   together(paths.ranks(), [&] { exits.links = paths.exits_from(exits.starts.simplices); });
 }
 

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <type_traits>
-#include <utility>
 
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/morse_smale/paths_on_ranks.hpp>
@@ -189,6 +188,19 @@ std::vector<int> PathSimplices::owners(const std::vector<Id>& simplices) const {
 PathsOnRanks::PathsOnRanks(const PathSimplices& simplices, const Array<const std::int64_t, HostMemory>& names,
                            const std::vector<Id>& others)
     : simplices_(simplices), criticals_(static_cast<Id>(simplices.critical().size())), names_(names) {
+  begin(others);
+  while (jump()) {
+  }
+}
+
+PathsOnRanks::PathsOnRanks(const PathSimplices& simplices, const std::vector<Id>& others)
+    : simplices_(simplices), criticals_(static_cast<Id>(simplices.critical().size())) {
+  together(ranks(), [&] { names_ = tabulated<std::int64_t>("GALE::no_names", criticals_, [](Offset) { return 0; }); });
+  begin(others);
+}
+
+/// Follows paths in the part, and finds where they go on from its exits.
+void PathsOnRanks::begin(const std::vector<Id>& others) {
   Array<Id, HostMemory> reached;
   together(ranks(), [&] {
     const PathsHere here = in_worker_or_host_space(
@@ -201,8 +213,6 @@ PathsOnRanks::PathsOnRanks(const PathSimplices& simplices, const Array<const std
     links_ = allocate<Array<ExitLink, HostMemory>>("GALE::exit_links", exits_.extent(0));
   });
   ask_owners(reached);
-  while (jump()) {
-  }
 }
 
 std::vector<Id> PathsOnRanks::ends_of(const std::vector<Id>& simplices) const {
@@ -233,9 +243,10 @@ PathStop PathsOnRanks::stop_here(Id end) const {
 void PathsOnRanks::ask_owners(const Array<Id, HostMemory>& reached) {
   const Offset count = reached.extent(0);
   if (ranks().sum(count) == 0) return;
-  std::vector<Id> simplices(count);
+  std::vector<Id> simplices;
   std::vector<int> owners;
   together(ranks(), [&] {
+    simplices.resize(count);
     parallel_for("GALE::open_exits", HostExecutionSpace(), count, [&](Offset i) { simplices[i] = exits_(reached(i)); });
     owners = simplices_.owners(simplices);
   });

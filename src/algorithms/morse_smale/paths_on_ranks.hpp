@@ -6,7 +6,6 @@
 #include <gale/algorithms/discrete_gradient.hpp>
 #include <gale/algorithms/morse_smale/jump.hpp>
 #include <gale/base/hash_table.hpp>
-#include <gale/mesh/exchange/global_index.hpp>
 
 namespace gale::detail {
 
@@ -72,12 +71,11 @@ struct ExitLink {
   Id exit = no_id;          ///< which of that rank's exits it comes to; no_id: it ends there
 };
 
-/// The exits of one rank, simplices (GALE's ids) that others follow the paths of, ascending; and how those paths go on
-/// to which others lead.
+/// The exits of one rank: simplices that others follow the paths of.
 struct ExitLinks {
-  Array<const Id, HostMemory> exits;
-  Array<const ExitLink, HostMemory> links;
-  std::vector<Id> wanted;  ///< the places of those that some paths come to, once each
+  Array<const Id, HostMemory> exits;        ///< GALE's ids, ascending
+  Array<const ExitLink, HostMemory> links;  ///< of those that some path comes to; the others' are unwritten
+  std::vector<Id> wanted;                   ///< the places of those that paths were asked for, once each
 };
 
 /// The ends of paths along the successors of a mesh on several ranks, by pointer jumping: first on each rank, then from
@@ -89,6 +87,9 @@ class PathsOnRanks {
   /// are to know them. Collective; throws gale::Error on all ranks. Refers to `simplices`.
   PathsOnRanks(const PathSimplices& simplices, const Array<const std::int64_t, HostMemory>& names,
                const std::vector<Id>& others = {});
+
+  /// Finds the exits of these paths alone, and where each goes on: no names of ends. Likewise.
+  PathsOnRanks(const PathSimplices& simplices, const std::vector<Id>& others);
 
   /// How the paths from local simplices (GALE's ids) end on this rank: `end_at` (jump.hpp) the number of that end,
   /// below. Where the successors are, if there was room.
@@ -121,15 +122,15 @@ class PathsOnRanks {
   const Ranks& ranks() const { return simplices_.mesh().exchange().ranks(); }
 
  private:
-  void find_exits(const std::vector<Id>& others);
+  void begin(const std::vector<Id>& others);
   void ask_owners(const Array<Id, HostMemory>& reached);
   bool jump();
   PathStop stop_here(Id end) const;
 
   const PathSimplices& simplices_;
   const Id criticals_;
-  const Array<const std::int64_t, HostMemory> names_;  ///< of the critical simplices
-  Array<Id, HostMemory> exits_;                        ///< ascending
+  Array<const std::int64_t, HostMemory> names_;  ///< of the critical simplices
+  Array<Id, HostMemory> exits_;                  ///< ascending
   Mirrored<Id> ends_;
   Array<PathStop, HostMemory> stops_;  ///< of each exit: where paths from there are after 2^(rounds-1) changes of ranks
   Array<ExitLink, HostMemory> links_;  ///< of each exit

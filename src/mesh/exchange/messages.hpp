@@ -87,9 +87,10 @@ WordRows rows_of(const EntriesByRank<T>& all, int rank) {
 }
 
 /// Exchanges several lists of entries, in one message from rank to rank, and in as few bytes as pack_rows makes of
-/// them: ids, places and the like that ascend or lie near one another. A rank's own are copied. Collective.
+/// them: ids, places and the like that ascend or lie near one another. A rank's own are copied; the others are let go
+/// when they are packed. Collective.
 template <class... T>
-std::tuple<EntriesByRank<T>...> exchange_lists(const Ranks& ranks, const char* label, const EntriesByRank<T>&... sent) {
+std::tuple<EntriesByRank<T>...> exchange_lists(const Ranks& ranks, const char* label, EntriesByRank<T>... sent) {
   const int here = ranks.rank();
   const auto for_each_other = [&](const EntriesByRank<T>&... lists, const auto& body) {
     const auto visit = [&](int rank, bool are_many) {
@@ -108,8 +109,13 @@ std::tuple<EntriesByRank<T>...> exchange_lists(const Ranks& ranks, const char* l
     packed = room_by_rank<char>(label, counts);
     for (int rank = 0; rank < ranks.size(); ++rank)
       write_pieces(pieces[rank], packed.entries.data() + packed.begin[rank]);
+    const auto let_go = [here](auto& list) {
+      if (list.count(here) == 0) list.entries = {};
+    };
+    (let_go(sent), ...);
   });
   const EntriesByRank<char> received = exchange(ranks, label, packed);
+  packed = {};
   std::tuple<EntriesByRank<T>...> unpacked;
   together(ranks, [&] {
     std::vector<std::vector<PackedList>> lists;  // by rank
@@ -121,7 +127,8 @@ std::tuple<EntriesByRank<T>...> exchange_lists(const Ranks& ranks, const char* l
       for (int rank = 0; rank < ranks.size(); ++rank)
         counts.push_back(rank == here ? own.count(here) : lists[rank][at].rows());
       list = room_by_rank<std::decay_t<decltype(own.entries(0))>>(label, counts);
-      std::copy_n(own.entries.data() + own.begin[here], own.count(here), list.entries.data() + list.begin[here]);
+      for (Offset i = 0; i < own.count(here); ++i)
+        list.entries(list.begin[here] + i) = own.entries(own.begin[here] + i);
       ++at;
     };
     std::apply(

@@ -101,7 +101,7 @@ struct ColumnParts {
   std::int64_t rows;
   int width;
 
-  /// Of a part: few enough for all threads to have some, and many beside what each costs.
+  /// Limits a part: to few enough for all threads to have some, to many beside what each costs.
   std::int64_t most_rows() const { return std::clamp<std::int64_t>(rows / 32, 1 << 12, 1 << 17); }
 
   std::int64_t of_column() const { return (rows - 1) / most_rows() + 1; }
