@@ -91,6 +91,10 @@ TEST(PackedRows, take_few_bytes_where_they_ascend_or_repeat) {
     ids.push_back(4000000000u + i);
     pairs.insert(pairs.end(), {i * 3, 0});
   }
+  EXPECT_LE(packed_and_back(ids, 1), 250u);  // of 25 parts
+  EXPECT_LE(packed_and_back(pairs, 2), 300u);
+  ids.resize(4096);
+  pairs.resize(2 * 4096);
   EXPECT_LE(packed_and_back(ids, 1), 16u);
   EXPECT_LE(packed_and_back(pairs, 2), 24u);
   Words near;

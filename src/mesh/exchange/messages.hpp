@@ -127,8 +127,8 @@ std::tuple<EntriesByRank<T>...> exchange_lists(const Ranks& ranks, const char* l
       for (int rank = 0; rank < ranks.size(); ++rank)
         counts.push_back(rank == here ? own.count(here) : lists[rank][at].rows());
       list = room_by_rank<std::decay_t<decltype(own.entries(0))>>(label, counts);
-      for (Offset i = 0; i < own.count(here); ++i)
-        list.entries(list.begin[here] + i) = own.entries(own.begin[here] + i);
+      if (own.count(here) > 0)
+        std::copy_n(own.entries.data() + own.begin[here], own.count(here), list.entries.data() + list.begin[here]);
       ++at;
     };
     std::apply(

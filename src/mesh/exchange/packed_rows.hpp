@@ -15,7 +15,8 @@ using PackedPieces = std::vector<std::vector<char>>;
 /// Packs `rows` rows of `width` 32-bit words each, which may be parts of larger numbers. Each column by itself is
 /// written as differences from row to row, modulo 2^32, the first from 0: a difference and how many more rows have the
 /// same, as numbers of 7 bits a byte. Ids one after the other, or all the same, take a few bytes; random words 1.25
-/// times what they took. Many rows are packed by all threads: each column, or part of it, by itself.
+/// times what they took. Many rows are packed by all threads: each column by itself, in up to 32 parts or more, each of
+/// which takes these few bytes.
 GALE_EXPORT PackedPieces pack_rows(const void* words, std::int64_t rows, int width);
 
 /// Whether that many rows keep several threads busy.
