@@ -112,4 +112,11 @@ void parallel_sort(const char* label, Iterator first, Iterator last, const Less&
   merge_runs(first, begin_of, less);
 }
 
+/// Sorts entries likewise, and keeps one of those that are equal.
+template <class T, class Less = std::less<>>
+void sort_distinct(const char* label, std::vector<T>& entries, const Less& less = {}) {
+  parallel_sort(label, entries.begin(), entries.end(), less);
+  entries.erase(std::unique(entries.begin(), entries.end()), entries.end());
+}
+
 }  // namespace gale

@@ -113,8 +113,7 @@ class ExcerptMaker {
       in_rows.push_back(pair_key(high, third));
       pairs.emplace_back(pair_key(high, low), third);
     });
-    parallel_sort("GALE::sort_rows", in_rows.begin(), in_rows.end());
-    in_rows.erase(std::unique(in_rows.begin(), in_rows.end()), in_rows.end());
+    sort_distinct("GALE::sort_rows", in_rows);
     parallel_sort("GALE::sort_pairs", pairs.begin(), pairs.end());
     auto at = in_rows.begin();
     auto next = pairs.begin();

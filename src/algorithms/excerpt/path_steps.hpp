@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <type_traits>
 #include <vector>
@@ -9,6 +8,7 @@
 #include <gale/base/hash_table.hpp>
 #include <gale/base/mirrored.hpp>
 #include <gale/base/parallel.hpp>
+#include <gale/base/sort.hpp>
 #include <gale/base/stop.hpp>
 #include <gale/base/transfer.hpp>
 
@@ -41,8 +41,7 @@ class PathSteps {
   /// Makes known the successors of all simplices on the paths from some.
   void follow(std::vector<Id> starts) {
     if (here_ != nullptr || starts.empty()) return;
-    std::sort(starts.begin(), starts.end());
-    starts.erase(std::unique(starts.begin(), starts.end()), starts.end());
+    sort_distinct("GALE::sort_starts", starts);
     const SteppedPaths paths = in_worker_or_host_space(true, [&](const auto& space) {
       return step_along_paths(space, successors_.in<MemoryOf<std::decay_t<decltype(space)>>>(), starts);
     });

@@ -103,11 +103,7 @@ class Reacher {
   /// Collective.
   bool hand_over() {
     if (ranks_.sum(static_cast<std::int64_t>(elsewhere_.size())) == 0) return false;
-    const auto received =
-        exchange_packed(ranks_, "GALE::steps",
-                        collect_by_rank<SentStep>(
-                            ranks_, "GALE::sent_steps", static_cast<Offset>(elsewhere_.size()),
-                            [&](Id i) { return elsewhere_[i].first; }, [&](Id i) { return elsewhere_[i].second; }));
+    const auto received = exchange_each(ranks_, "GALE::steps", elsewhere_);
     elsewhere_.clear();
     together(ranks_, [&] {
       for (Offset i = 0; i < received.count(); ++i) go(here(received.entries(i)));

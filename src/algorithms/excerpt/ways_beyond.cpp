@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -7,6 +6,7 @@
 #include <gale/algorithms/excerpt/gathering.hpp>
 #include <gale/algorithms/excerpt/path_steps.hpp>
 #include <gale/algorithms/excerpt/ways_beyond.hpp>
+#include <gale/base/sort.hpp>
 #include <gale/base/stop.hpp>
 
 namespace gale::detail {
@@ -46,8 +46,7 @@ class PathsBeyond {
   void follow(int asker, const Visit& visit) {
     std::vector<Id>& starts = starts_[asker];
     if (starts.empty()) return;
-    std::sort(starts.begin(), starts.end());
-    starts.erase(std::unique(starts.begin(), starts.end()), starts.end());
+    sort_distinct("GALE::sort_starts", starts);
     HashTable<IsSeen> passed;
     const auto pass = [&](Id simplex, Id next) {
       if (next == DiscreteGradient::elsewhere || !passed.insert(static_cast<std::uint64_t>(simplex)).second)
@@ -117,13 +116,8 @@ class WaysBeyond {
   /// Hands over what other ranks have to follow, and takes what they hand over. False if nobody had anything.
   /// Collective.
   bool hand_over() {
-    const Offset count = static_cast<Offset>(elsewhere_.size());
-    if (ranks_.sum(count) == 0) return false;
-    const auto received =
-        exchange_packed(ranks_, "GALE::ways",
-                        collect_by_rank<SentWay>(
-                            ranks_, "GALE::sent_ways", count, [&](Id i) { return elsewhere_[i].first; },
-                            [&](Id i) { return elsewhere_[i].second; }));
+    if (ranks_.sum(static_cast<std::int64_t>(elsewhere_.size())) == 0) return false;
+    const auto received = exchange_each(ranks_, "GALE::ways", elsewhere_);
     elsewhere_.clear();
     together(ranks_, [&] {
       for (Offset i = 0; i < received.count(); ++i) take(received.entries(i));

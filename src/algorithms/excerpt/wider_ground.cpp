@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <utility>
 
 #include <gale/algorithms/excerpt/wider_ground.hpp>
@@ -33,9 +32,8 @@ void WiderGround::fill_rows() {
     if (third >= 0) in_rows.push_back(pair_key(high, third));
   }
   in_rows.insert(in_rows.end(), told.begin(), told.end());
-  parallel_sort("GALE::sort_reached", in_rows.begin(), in_rows.end());
+  sort_distinct("GALE::sort_reached", in_rows);
   parallel_sort("GALE::sort_reached", told.begin(), told.end());
-  in_rows.erase(std::unique(in_rows.begin(), in_rows.end()), in_rows.end());
   auto at = told.begin();
   for (const std::uint64_t edge : in_rows) {
     while (at != told.end() && *at < edge) ++at;

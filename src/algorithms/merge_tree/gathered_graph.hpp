@@ -221,8 +221,7 @@ class GatheredGraph {
         all.push_back(meeting.vertex);
       }
     }
-    parallel_sort("GALE::sort_told", all.begin(), all.end());
-    all.erase(std::unique(all.begin(), all.end()), all.end());
+    sort_distinct("GALE::sort_told", all);
     const std::vector<std::uint64_t> values = order.value_keys_of(all);
     const std::array<std::vector<GlobalId>, 2> ends{sides[below]->ends_of(all), sides[above]->ends_of(all)};
     own.resize(all.size());

@@ -87,8 +87,7 @@ class TreeMaker {
   void choose_nodes() {
     for (const Side side : {below, above})
       nodes_.insert(nodes_.end(), forests_[side].vertices.begin(), forests_[side].vertices.end());
-    parallel_sort("GALE::sort_tree_nodes", nodes_.begin(), nodes_.end(), keys(below));
-    nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
+    sort_distinct("GALE::sort_tree_nodes", nodes_, keys(below));
     for (const Side side : {below, above}) {
       if (!uses_[side]) continue;
       const MergeForest& forest = forests_[side];

@@ -150,8 +150,7 @@ void ConnectorsHere::follow_here(const DiscreteGradient& gradient, const Critica
   for (const auto& tracer : found_->tracers) {
     if (tracer) exits_.insert(exits_.end(), tracer->exits.begin(), tracer->exits.end());
   }
-  parallel_sort("GALE::sort_exits", exits_.begin(), exits_.end());  // walls of several threads have some in common
-  exits_.erase(std::unique(exits_.begin(), exits_.end()), exits_.end());
+  sort_distinct("GALE::sort_exits", exits_);  // walls of several threads have some in common
 }
 
 ConnectorsHere::~ConnectorsHere() = default;

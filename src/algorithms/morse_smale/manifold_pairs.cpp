@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <functional>
 #include <utility>
 #include <vector>
 
@@ -86,8 +85,7 @@ ManifoldPairs counted_pairs(const Mirrored<Id>& ascending, const Mirrored<Id>& d
   });
   std::vector<std::uint64_t> all;
   for (const auto& some : found) all.insert(all.end(), some.begin(), some.end());
-  parallel_sort("GALE::sort_manifold_pairs", all.begin(), all.end(), std::less<std::uint64_t>());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
+  sort_distinct("GALE::sort_manifold_pairs", all);
   const auto pairs = allocate<Array<std::uint64_t, HostMemory>>("GALE::manifold_pairs", all.size());
   std::copy(all.begin(), all.end(), pairs.data());
   for_parts("GALE::number_manifolds", count, parts, [&](int part, Offset first, Offset last) {

@@ -226,8 +226,7 @@ ExitLinks PathsOnRanks::exits_from(const std::vector<Id>& simplices) const {
   for (const Id end : ends_of(simplices)) {
     if (end >= criticals_) found.wanted.push_back(end - criticals_);
   }
-  parallel_sort("GALE::sort_exits", found.wanted.begin(), found.wanted.end());
-  found.wanted.erase(std::unique(found.wanted.begin(), found.wanted.end()), found.wanted.end());
+  sort_distinct("GALE::sort_exits", found.wanted);
   return found;
 }
 

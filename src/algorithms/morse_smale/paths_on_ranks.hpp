@@ -109,9 +109,7 @@ class PathsOnRanks {
   /// The name of the critical simplex at which the paths that end here so end finally; -1 if that is outside, or an
   /// exit that no path comes to that was asked for.
   std::int64_t final_name(Id end) const {
-    if (end == no_id) return -1;
-    if (end < criticals_) return names_(end);
-    const PathStop& stop = stops_(end - criticals_);
+    const PathStop stop = end < criticals_ ? stop_here(end) : stops_(end - criticals_);
     return stop.rank == PathStop::critical ? stop.at : -1;
   }
 

@@ -152,8 +152,7 @@ void ChangingOrder<Space>::fill(Side side, std::vector<FilledBranch> branches, C
     changed.push_back(branch.saddle);
     changed.insert(changed.end(), branch.vertices.begin(), branch.vertices.end());
   }
-  parallel_sort("GALE::sort_changed", changed.begin(), changed.end());
-  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+  sort_distinct("GALE::sort_changed", changed);
   stars_.gather(std::move(changed), threads_);
   branch_.assign(stars_.vertices().size(), no_id);
   for (std::size_t number = 0; number < branches.size(); ++number) {

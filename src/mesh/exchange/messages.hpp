@@ -198,6 +198,15 @@ EntriesByRank<T> collect_by_rank(const Ranks& ranks, const char* label, Offset i
   return sent;
 }
 
+/// Sends each of some entries, which have their ranks before them, and returns what all have sent here. Collective.
+template <class T>
+EntriesByRank<T> exchange_each(const Ranks& ranks, const char* label, const std::vector<std::pair<int, T>>& entries) {
+  return exchange_packed(ranks, label,
+                         collect_by_rank<T>(
+                             ranks, label, static_cast<Offset>(entries.size()), [&](Id i) { return entries[i].first; },
+                             [&](Id i) { return entries[i].second; }));
+}
+
 /// What all ranks have, on the first one; nothing on the others. Collective.
 template <class T>
 EntriesByRank<T> to_first(const Ranks& ranks, const char* label, const std::vector<T>& entries) {
