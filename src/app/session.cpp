@@ -190,9 +190,9 @@ FieldOnMesh Session::read_part(const SegmentationOptions& segmentation, Keep kee
       console_.say("ranks", std::to_string(ranks_.size()) + " of " + std::to_string(report_.threads) + " threads");
     note(notices);
   };
-  FieldOnMesh on = read_on_ranks(
-      input_, segmentation.capacity.value_or(default_capacity),
-      {has_outputs_ || keep == Keep::values, has_outputs_, has_outputs_ && keep == Keep::cells}, was_read);
+  const WantedOfInput wanted{has_outputs_ || keep == Keep::values || keep == Keep::owned_values, has_outputs_,
+                             has_outputs_ && keep == Keep::cells, keep == Keep::owned_values && !has_outputs_};
+  FieldOnMesh on = read_on_ranks(input_, segmentation.capacity.value_or(default_capacity), wanted, was_read);
   tell_size(on.mesh.all_vertices(), on.mesh.all_cells(), on.mesh.dimension());
   report_.segments = ranks_.sum(on.mesh.owned_segments().size());
   if (step_ == 0) console_.say("field", on.field.name);

@@ -32,6 +32,7 @@ struct FieldOnMesh {
   io::PointArray field;
   VertexOrder order;
   bool has_ids = false;  ///< whether GlobalPointIds of the dataset are the points' in the input of all ranks
+  outputs::ValuesOf values = outputs::ValuesOf::held_vertices;  ///< of the field
 };
 
 /// What outputs take of a field on a mesh at the vertices that results are named in: where that is an excerpt of the
@@ -40,7 +41,7 @@ class OnExcerpt : public outputs::AtExcerpt {
  public:
   /// Collective, see AtExcerpt.
   OnExcerpt(const Mesh& excerpt, const FieldOnMesh& on, bool field_alone = false)
-      : AtExcerpt(excerpt, on.mesh, on.dataset, on.field, field_alone) {}
+      : AtExcerpt(excerpt, on.mesh, on.dataset, on.field, field_alone, on.values) {}
 };
 
 /// The segments that the options give the dataset's vertices: by an array, or at random. Without options those of the
@@ -87,9 +88,10 @@ class Session {
   io::Dataset read();
 
   /// Segments and encodes, unless the mesh of the step before is the same; a grid whose segments are its own stays one.
-  /// The cells are taken out of `dataset` unless they are kept. On several ranks points
-  /// and arrays are there where cells are, or `values`, are kept, or anything is to be written.
-  enum class Keep { cells, values, nothing };
+  /// The cells are taken out of `dataset` unless they are kept. On several ranks points and arrays are there where
+  /// cells are kept, or anything is to be written, and the field's values where they are: of ghosts, too, unless
+  /// `owned_values` will do.
+  enum class Keep { cells, values, owned_values, nothing };
   Mesh encode(io::Dataset& dataset, const SegmentationOptions& segmentation, Keep keep);
 
   /// All that comes before a structure: reads, selects the field that --array names, segments, encodes, and orders the

@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <gale/base/error.hpp>
 #include <gale/base/mirrored.hpp>
@@ -154,6 +156,7 @@ class DistributedMesh::Sharing final : public Exchange {
   Mesh take(const MeshPart<Index>& part, const PartitionOptions& options, const std::shared_ptr<const Exchange>& self);
   detail::ExchangePlan::Run share(const detail::VertexDirectory& directory,
                                   Array<detail::VertexEntry, HostMemory> of_owned);
+  detail::ExchangePlan::Run share_layers(Offset layer);
   detail::OwnAndGhosts share_points(const HostPoints& given, const detail::ExchangePlan::Run& run) const;
 
   Communicator ranks_;
@@ -232,6 +235,41 @@ detail::ExchangePlan::Run DistributedMesh::Sharing::share(const detail::VertexDi
         ranks_, {}, ghosts, [&](Id i) { return ghost_owners_(i); }, [&](Id i) { return held_.ghosts()(i); },
         [&](GlobalId id) { return held_.find(id); });
   }
+  return run;
+}
+
+/// Plans likewise, without a message, where the `layer` vertices before those that a rank owns and the `layer` after
+/// them are its ghosts.
+detail::ExchangePlan::Run DistributedMesh::Sharing::share_layers(Offset layer) {
+  const int here = ranks_.rank();
+  const detail::IdInterval& own = given_->of(here);
+  detail::ExchangePlan::Run run;
+  if (!own.is_empty()) run = {held_.owned(0), 0, held_.owned_count()};
+  const auto ghosts_of = [&](int rank) -> std::array<detail::IdInterval, 2> {
+    const auto [begin, end] = given_->of(rank);
+    if (begin >= end) return {};
+    return {{{begin - layer, begin}, {end, end + layer}}};
+  };
+  detail::together(ranks_, [&] {
+    std::vector<Interval> given(ranks_.size()), taken(ranks_.size());
+    ghost_owners_ = allocate<Array<int, HostMemory>>("GALE::ghost_owners", held_.ghost_count());
+    for (int rank = 0; rank < ranks_.size(); ++rank) {
+      for (const detail::IdInterval& ghosts : ghosts_of(here)) {
+        const detail::IdInterval some = ghosts.common(given_->of(rank));
+        if (some.is_empty()) continue;
+        const Id first = held_.find(some.begin);
+        taken[rank] = {first, static_cast<Id>(first + (some.end - some.begin))};
+        std::fill_n(&ghost_owners_(held_.ghost_number(first)), taken[rank].size(), rank);
+      }
+      for (const detail::IdInterval& ghosts : ghosts_of(rank)) {
+        const detail::IdInterval some = ghosts.common(own);
+        if (!some.is_empty())
+          given[rank] = {static_cast<Id>(some.begin - own.begin), static_cast<Id>(some.end - own.begin)};
+      }
+    }
+    from_givers_ = detail::ExchangePlan::of_intervals(run, given, taken);
+    from_owners_ = from_givers_.between_slots();
+  });
   return run;
 }
 
@@ -334,15 +372,17 @@ Mesh DistributedMesh::Sharing::make(const GridLayers& part, const PartitionOptio
   vertices_ = local.all_vertices;
   cells_ = local.all_cells;
   given_vertices_ = local.owned.size();
-  given_ = detail::GivenIntervals::of(ranks_, local.owned_ids);
+  given_.emplace(local.owned_ids);
   detail::together(ranks_, [&] {
-    held_ = detail::LocalVertices(detail::OwnedIds(local.owned_ids), local.ghosts);
+    held_ = detail::LocalVertices(detail::OwnedIds(local.owned_ids[ranks_.rank()]), local.ghosts);
     places_ = detail::CellPlaces({local.grid->cells(), {}, {}, local.first_cell}, {});
   });
-  const auto run = share(detail::VertexDirectory(ranks_, *given_), {});
+  const auto run =
+      local.whole_layer > 0 ? share_layers(local.whole_layer) : share(detail::VertexDirectory(ranks_, *given_), {});
   if (ranks_.size() == 1) from_givers_ = detail::ExchangePlan::of_one_rank(given_vertices_);
-  const bool has_points = ranks_.least(std::int64_t(part.positions.count() == given_vertices_)) == 1;
-  const bool has_none = ranks_.least(std::int64_t(part.positions.count() == 0)) == 1;
+  std::int64_t with_points[] = {part.positions.count() == given_vertices_, part.positions.count() == 0};
+  ranks_.sum(with_points, 2);
+  const bool has_points = with_points[0] == ranks_.size(), has_none = with_points[1] == ranks_.size();
   if (!has_points && !has_none) throw SharedError("some ranks hand over other points than those of their layers");
   if (has_points) placed_ = share_points(part.positions, run);
   if (!has_points) points.made_by({});

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <exception>
 #include <string>
@@ -83,6 +85,16 @@ class GALE_EXPORT Ranks {
 };
 
 namespace detail {
+
+/// Several numbers of each rank, by rank, on each rank. Collective.
+template <std::size_t count>
+std::vector<std::array<std::int64_t, count>> all_numbers(const Ranks& ranks,
+                                                         const std::array<std::int64_t, count>& mine) {
+  std::vector<std::array<std::int64_t, count>> all(ranks.size(), std::array<std::int64_t, count>{});
+  all[ranks.rank()] = mine;
+  ranks.sum(all.front().data(), static_cast<int>(count) * ranks.size());
+  return all;
+}
 
 /// Throws SharedError if one rank has `failed`: what the lowest such rank says, with its name.
 GALE_EXPORT void fail_together(const Ranks& ranks, bool failed, const std::string& failure);

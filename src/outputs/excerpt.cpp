@@ -62,16 +62,18 @@ io::Dataset dataset_of(const Mesh& excerpt, const Mesh& mesh, const io::Dataset&
   return found;
 }
 
-io::PointArray array_of(const Mesh& excerpt, const Mesh& mesh, const io::PointArray& array) {
-  return detail::brought(gale::detail::plan_to(excerpt, mesh), mesh.exchange().ranks(), array, excerpt.vertices());
+io::PointArray array_of(const Mesh& excerpt, const Mesh& mesh, const io::PointArray& array, ValuesOf values) {
+  const Id shift = values == ValuesOf::held_vertices ? 0 : static_cast<Id>(mesh.exchange().from_givers().run().slot);
+  return detail::brought(gale::detail::plan_to(excerpt, mesh, shift), mesh.exchange().ranks(), array,
+                         excerpt.vertices());
 }
 
 AtExcerpt::AtExcerpt(const Mesh& excerpt, const Mesh& mesh, const io::Dataset& dataset, const io::PointArray& field,
-                     bool field_alone)
+                     bool field_alone, ValuesOf values)
     : dataset_(dataset), field_(field), is_excerpt_(!(excerpt == mesh)) {
   if (!is_excerpt_) return;
   if (!field_alone) own_dataset_ = dataset_of(excerpt, mesh, dataset);
-  own_field_ = array_of(excerpt, mesh, field);
+  own_field_ = array_of(excerpt, mesh, field, values);
 }
 
 }  // namespace gale::outputs

@@ -16,8 +16,13 @@ GALE_EXPORT const Mesh& mesh_of_excerpt(const MorseSmaleComplex& complex);
 /// arrays. Without cells. Collective.
 GALE_EXPORT io::Dataset dataset_of(const Mesh& excerpt, const Mesh& mesh, const io::Dataset& dataset);
 
+/// Which values of an array there are: those of all vertices that a rank holds, by input id, or of those alone that it
+/// owns, in the order of their input ids, which follow one another.
+enum class ValuesOf { held_vertices, owned_vertices };
+
 /// The values of one array likewise. Collective.
-GALE_EXPORT io::PointArray array_of(const Mesh& excerpt, const Mesh& mesh, const io::PointArray& array);
+GALE_EXPORT io::PointArray array_of(const Mesh& excerpt, const Mesh& mesh, const io::PointArray& array,
+                                    ValuesOf values = ValuesOf::held_vertices);
 
 /// Points and field of what an analysis has found in an excerpt, or where there is none, in the mesh itself.
 class GALE_EXPORT AtExcerpt {
@@ -25,7 +30,7 @@ class GALE_EXPORT AtExcerpt {
   /// Collective. Refers to the dataset and the field of the mesh. With the field alone there is nothing of an excerpt
   /// in dataset().
   AtExcerpt(const Mesh& excerpt, const Mesh& mesh, const io::Dataset& dataset, const io::PointArray& field,
-            bool field_alone = false);
+            bool field_alone = false, ValuesOf values = ValuesOf::held_vertices);
 
   /// Points and arrays, by input ids of the excerpt, or of the mesh.
   const io::Dataset& dataset() const { return is_excerpt_ ? own_dataset_ : dataset_; }

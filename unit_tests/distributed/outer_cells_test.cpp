@@ -144,7 +144,7 @@ void expect_placed(const Communicator& ranks, const AllParts& all, bool with_ids
   ASSERT_EQ(read.outer.count, static_cast<Offset>(outer.size()));
   for (std::size_t i = 0; i < outer.size(); ++i) ASSERT_EQ(read.outer[i], outer[i]);
 
-  const detail::VertexDirectory directory(ranks, detail::GivenIntervals::of(ranks, own));
+  const detail::VertexDirectory directory(ranks, *detail::GivenIntervals::of(ranks, own));
   const detail::LocalCells<Index> cells(ranks, mine.part, directory, own, read.outer, 1 << 30);
   ASSERT_TRUE(cells.places().keep_order());
   const detail::OwnedIds owned(own);

@@ -30,7 +30,7 @@ class FindPersistenceDiagram final : public AnalysisCommand {
   }
 
  private:
-  Session::Keep keep() const override { return Session::Keep::values; }
+  Session::Keep keep() const override { return Session::Keep::owned_values; }
 
   void analyse(const FieldOnMesh& on, Session& session, Computed& computed) const override {
     const double least = threshold_for(on.field);

@@ -57,9 +57,10 @@ inline int launched_ranks() {
 }
 
 /// What of an input is wanted beside the mesh and the order: the field's values; points and all arrays, for outputs;
-/// the cells' corners.
+/// the cells' corners; and whether values of owned vertices will do.
 struct WantedOfInput {
   bool values, arrays, cells;
+  bool owned_will_do = false;
 };
 
 /// Reads an input on several ranks together: `grid:N` and `plane:N` are made by each rank for itself, the pieces of a

@@ -159,6 +159,14 @@ io::PointArray held_values(const Mesh& mesh, const io::PointArray& array) {
   return outputs::detail::brought(mesh.exchange().from_givers(), mesh.exchange().ranks(), array, mesh.vertices());
 }
 
+/// Whether all ranks have values of the vertices that they own, one after the other. Collective.
+bool are_of_owned(const Mesh& mesh, const io::PointArray& array) {
+  const Offset count = mesh.owned_vertices().size();
+  const bool are_own = mesh.exchange().from_givers().run().count == count &&
+                       std::visit([&](const auto& values) { return Offset(values.size()) == count; }, array.values);
+  return mesh.exchange().ranks().least(std::int64_t(are_own)) == 1;
+}
+
 /// The numbers of the input's cells that those of this rank are of, by input id, from those that ranks handed over by
 /// `ids`. Collective.
 io::PointArray held_cells(const DistributedMesh& mesh, const Array<const GlobalId, HostMemory>& ids,
@@ -248,8 +256,14 @@ FieldOnMesh read_on_ranks(const InputOptions& from, int capacity, const WantedOf
     dataset = held_dataset(mesh, input);
     if (names_cells) dataset.cell_arrays.push_back(held_cells(mesh, given_ids, input.cells));
   }
-  if (wanted.values) field = held_values(mesh, input.field);
-  return {std::move(dataset), mesh, std::move(field), order, input.has_ids};
+  auto values = outputs::ValuesOf::held_vertices;
+  if (wanted.values && wanted.owned_will_do && are_of_owned(mesh, input.field)) {
+    field = std::move(input.field);
+    values = outputs::ValuesOf::owned_vertices;
+  } else if (wanted.values) {
+    field = held_values(mesh, input.field);
+  }
+  return {std::move(dataset), mesh, std::move(field), order, input.has_ids, values};
 }
 
 }  // namespace gale::app

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <gale/base/parallel.hpp>
@@ -18,6 +20,9 @@ struct IdInterval {
 
   bool contains(GlobalId id) const { return id >= begin && id < end; }
   bool is_empty() const { return begin >= end; }
+
+  /// What it has in common with another.
+  IdInterval common(const IdInterval& other) const { return {std::max(begin, other.begin), std::min(end, other.end)}; }
 };
 
 /// Says which interval ids that ascend are, none of them twice; an empty one if they have gaps.
@@ -58,18 +63,15 @@ struct OwnedIds {
 /// each rank knows by itself who hands over what.
 class GivenIntervals {
  public:
+  explicit GivenIntervals(std::vector<IdInterval> by_rank) : by_rank_(std::move(by_rank)) {}
+
   /// Nothing if what any rank hands over is no interval. Collective.
   static std::optional<GivenIntervals> of(const Communicator& ranks, const std::optional<IdInterval>& ids) {
     if (ranks.least(std::int64_t(ids.has_value())) == 0) return std::nullopt;
-    return of(ranks, *ids);
-  }
-
-  /// Where each rank knows that it hands over an interval. Collective.
-  static GivenIntervals of(const Communicator& ranks, const IdInterval& ids) {
-    GivenIntervals given;
-    const auto begin = ranks.all(ids.begin), end = ranks.all(ids.end);
-    for (int rank = 0; rank < ranks.size(); ++rank) given.by_rank_.push_back({begin[rank], end[rank]});
-    return given;
+    std::vector<IdInterval> by_rank;
+    for (const auto& [begin, end] : all_numbers(ranks, std::array<std::int64_t, 2>{ids->begin, ids->end}))
+      by_rank.push_back({begin, end});
+    return GivenIntervals(std::move(by_rank));
   }
 
   /// The lowest rank that hands a vertex over; -1 if none does.

@@ -154,9 +154,12 @@ void CornerOwners<Index>::fill(const DistinctIds& handed, const GlobalIds& other
 }
 
 void require_local(const Communicator& ranks, const char* name, Offset count, Offset most) {
-  const Offset greatest = -ranks.least(-count);
+  require_fits(ranks.size(), name, -ranks.least(-count), most);
+}
+
+void require_fits(int ranks, const char* name, Offset greatest, Offset most) {
   if (greatest <= most) return;
-  const double shares = static_cast<double>(greatest) * ranks.size() / static_cast<double>(most);
+  const double shares = static_cast<double>(greatest) * ranks / static_cast<double>(most);
   throw SharedError("a rank would hold " + std::to_string(greatest) + ' ' + name + ", but at most " +
                     std::to_string(most) + " fit: take at least " + std::to_string(static_cast<Offset>(shares) + 1) +
                     " ranks");

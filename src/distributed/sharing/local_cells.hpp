@@ -74,4 +74,7 @@ class LocalCells {
 /// many ranks it takes. Collective.
 void require_local(const Communicator& ranks, const char* name, Offset count, Offset most);
 
+/// Throws that error where the greatest count of so many ranks, which all know, is more than `most`.
+void require_fits(int ranks, const char* name, Offset greatest, Offset most);
+
 }  // namespace gale::detail

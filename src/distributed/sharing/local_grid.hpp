@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include <gale/distributed/communicator.hpp>
 #include <gale/distributed/grid_layers.hpp>
@@ -14,10 +15,14 @@ namespace gale::detail {
 struct LocalGrid {
   std::optional<Grid> grid;  ///< one without vertices where the rank owns none
   Interval owned;            ///< the vertices that it owns, by local ids
-  IdInterval owned_ids;      ///< these vertices by global ids
-  GlobalIds ghosts;          ///< the others, ascending
+  GlobalIds ghosts;          ///< the others by global ids, ascending
   GlobalId first_cell = 0;   ///< the global id of the first cell; the others follow
   GlobalId all_vertices = 0, all_cells = 0;
+  std::vector<IdInterval> owned_ids;  ///< the vertices that each rank owns
+
+  /// How many vertices each layer has where all points are vertices: so many before those that a rank owns are its
+  /// ghosts, as far as there are any, and so many after them. Else 0.
+  Offset whole_layer = 0;
 };
 
 /// Collective. Throws gale::Error on all ranks where layers don't fit together, a vertex has no cube, there is no cell,

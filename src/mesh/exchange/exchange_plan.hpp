@@ -1,9 +1,14 @@
 #pragma once
 
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
 #include <gale/base/memory.hpp>
 #include <gale/base/transfer.hpp>
 #include <gale/base/types.hpp>
 #include <gale/mesh/exchange/messages.hpp>
+#include <gale/mesh/intervals.hpp>
 #include <gale/mesh/mesh.hpp>
 
 namespace gale::detail {
@@ -36,6 +41,28 @@ class ExchangePlan {
     return plan;
   }
 
+  /// Where ranks give one another intervals that all know: of this rank's places, by the rank that takes them, and of
+  /// its slots, by the rank that gives them; empty ones for itself, whose own values are those of `run`. Sends nothing.
+  static ExchangePlan of_intervals(const Run& run, const std::vector<Interval>& given,
+                                   const std::vector<Interval>& taken) {
+    const auto entries_of = [](const char* label, const std::vector<Interval>& intervals) {
+      std::vector<std::int64_t> counts;
+      for (const Interval& interval : intervals) counts.push_back(interval.size());
+      const auto all = room_by_rank<Id>(label, counts);
+      for (std::size_t rank = 0; rank < intervals.size(); ++rank)
+        std::iota(all.entries.data() + all.begin[rank], all.entries.data() + all.begin[rank + 1],
+                  intervals[rank].first);
+      return all;
+    };
+    ExchangePlan plan;
+    plan.run_ = run;
+    plan.given_ = entries_of("GALE::given_places", given);
+    const auto slots = entries_of("GALE::taken_slots", taken);
+    plan.taken_counts_ = counts_of(slots);
+    plan.slots_ = slots.entries;
+    return plan;
+  }
+
   /// For the i-th of `slots` of this rank the value of what the rank source(i) knows by key(i). place(key) is where
   /// that rank will have the value among those that it gives from. Beside them those of `run`, of none of which it has
   /// a slot. Collective.
@@ -53,6 +80,9 @@ class ExchangePlan {
     });
     return plan;
   }
+
+  /// This rank's own values that follow one another.
+  const Run& run() const { return run_; }
 
   /// Whether the values of all slots are in their places already.
   bool keeps_all() const { return taken_counts_.empty() && run_.slot == 0 && run_.place == 0; }
@@ -171,9 +201,9 @@ ExchangePlan::ExchangePlan(const Ranks& ranks, const Run& run, const Array<const
   });
 }
 
-/// Brings what owners know of vertices of `mesh`, by input id, to the vertices of `some`, another mesh that calls them
-/// by the same global ids: an excerpt of each rank's own. Collective.
-inline ExchangePlan plan_to(const Mesh& some, const Mesh& mesh) {
+/// Brings what owners know of vertices of `mesh`, from the place that is `shift` before their input ids, to the
+/// vertices of `some`, another mesh that calls them by the same global ids: an excerpt of each rank's own. Collective.
+inline ExchangePlan plan_to(const Mesh& some, const Mesh& mesh, Id shift = 0) {
   const Ranks& ranks = mesh.exchange().ranks();
   Array<GlobalId, HostMemory> ids;
   Array<Id, HostMemory> slots;
@@ -190,7 +220,7 @@ inline ExchangePlan plan_to(const Mesh& some, const Mesh& mesh) {
   });
   return ExchangePlan(
       ranks, {}, slots, [&](Id i) { return owners(i); }, [&](Id i) { return ids(i); },
-      [&](GlobalId id) { return mesh.vertex_of(id); });
+      [&](GlobalId id) { return mesh.vertex_of(id) - shift; });
 }
 
 /// What value(v) is of vertices of `mesh`, by input id, at those of `some`, by the ranks that own them. Collective.
