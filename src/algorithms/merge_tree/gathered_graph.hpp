@@ -5,6 +5,7 @@
 #include <memory>
 #include <numeric>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -33,20 +34,6 @@ struct TreeVertex {
 struct TreeMeeting {
   GlobalId vertex, extremum;
 };
-
-/// What all ranks have, one after the other. Collective.
-template <class T>
-std::vector<T> of_all(const Ranks& ranks, const std::vector<T>& mine) {
-  EntriesByRank<T> sent;
-  together(ranks, [&] {
-    sent = room_by_rank<T>("GALE::told_to_all",
-                           std::vector<std::int64_t>(ranks.size(), static_cast<std::int64_t>(mine.size())));
-    for (int rank = 0; rank < ranks.size(); ++rank)
-      std::copy(mine.begin(), mine.end(), sent.entries.data() + sent.begin[rank]);
-  });
-  const EntriesByRank<T> received = exchange_packed(ranks, "GALE::told_by_all", sent);
-  return {received.entries.data(), received.entries.data() + received.count()};
-}
 
 /// A vertex of this rank, with its key as a side sees it, and an extremum of which a path ends there.
 struct JoiningVertex {
@@ -159,8 +146,8 @@ class GatheredGraph {
     for (const auto& some : meetings) bytes += some.size() * sizeof(TreeMeeting);
     require_room(ranks_, "extrema and where they meet", std::vector<std::int64_t>(ranks_.size(), std::int64_t(bytes)),
                  0);
-    vertices = of_all(ranks_, own);
-    for (const Side side : {below, above}) meetings_[side] = of_all(ranks_, meetings[side]);
+    std::tie(vertices, meetings_[below], meetings_[above]) =
+        lists_of_all(ranks_, "GALE::told_to_all", own, meetings[below], meetings[above]);
     together(ranks_, [&] { finish(); });
   }
 

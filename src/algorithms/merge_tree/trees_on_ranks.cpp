@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -24,11 +26,12 @@ void set_arcs_on_ranks(const Mesh& mesh, const Mesh& excerpt, MergeTree& tree, s
       node[i] = mesh.vertex_of(excerpt.vertex_id(tree.vertices[i]));
       if (node[i] != no_id) arc_of[node[i]] = no_id;
     });
-    const OtherIds input = mesh.vertices_in_input();
-    const Id first = mesh.owned_vertices().first;
-    const std::vector<Id> mine = sizes_of(tree.arcs.size(), mesh.owned_vertices().size(),
-                                          [&](Offset i) { return arc_of[input[first + static_cast<Id>(i)]]; });
-    sizes.assign(mine.begin(), mine.end());
+    const std::vector<Id> held = sizes_of(tree.arcs.size(), mesh.vertices(), [&](Offset i) { return arc_of[i]; });
+    const auto& ghosts = mesh.exchange().from_owners().slots();
+    const std::vector<Id> of_others =
+        sizes_of(tree.arcs.size(), ghosts.extent(0), [&](Offset i) { return arc_of[ghosts(i)]; });
+    sizes.resize(held.size());
+    std::transform(held.begin(), held.end(), of_others.begin(), sizes.begin(), std::minus<std::int64_t>());
     require_ids("arcs of trees", static_cast<Offset>(sizes.size()));
   });
   ranks.sum(sizes.data(), static_cast<int>(sizes.size()));

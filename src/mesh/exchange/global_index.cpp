@@ -81,6 +81,8 @@ GlobalIndex::GlobalIndex(const Array<const GlobalId, HostMemory>& ascending, Loo
                  [&](Offset i) { places_(static_cast<std::uint64_t>(ids_(i)) - first_) = static_cast<Id>(i); });
   } else if (words * sizeof(CountedWord) <= bytes_an_id * count) {
     mark_in_words(words);
+  } else {
+    divide(span);
   }
 }
 
@@ -99,11 +101,24 @@ void GlobalIndex::mark_in_words(std::uint64_t words) {
   });
 }
 
-Id GlobalIndex::bisect(GlobalId id) const {
-  const GlobalId* const begin = ids_.data();
-  const GlobalId* const end = begin + ids_.extent(0);
+/// Makes as many buckets as there are ids, or up to twice as many.
+void GlobalIndex::divide(std::uint64_t span) {
+  const Offset count = ids_.extent(0);
+  while ((span - 1) >> shift_ >= 2 * static_cast<std::uint64_t>(count)) ++shift_;
+  const Offset buckets = bucket(ids_(count - 1)) + 1;
+  begin_ = allocate<Array<Id, HostMemory>>("GALE::buckets_of_ids", buckets + 1);
+  parallel_for("GALE::buckets_of_ids", HostExecutionSpace(), count + 1, [&](Offset i) {
+    const Offset from = i == 0 ? 0 : bucket(ids_(i - 1)) + 1, to = i == count ? buckets : bucket(ids_(i));
+    for (Offset b = from; b <= to; ++b) begin_(b) = static_cast<Id>(i);
+  });
+}
+
+Id GlobalIndex::find_in_bucket(GlobalId id) const {
+  if (ids_.extent(0) == 0 || id < ids_(0) || id > ids_(ids_.extent(0) - 1)) return no_id;
+  const GlobalId* const begin = ids_.data() + begin_(bucket(id));
+  const GlobalId* const end = ids_.data() + begin_(bucket(id) + 1);
   const GlobalId* const at = std::lower_bound(begin, end, id);
-  return at == end || *at != id ? no_id : static_cast<Id>(at - begin);
+  return at == end || *at != id ? no_id : static_cast<Id>(at - ids_.data());
 }
 
 }  // namespace gale::detail

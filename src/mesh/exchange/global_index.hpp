@@ -30,7 +30,8 @@ GALE_EXPORT void keep_distinct(std::vector<GlobalId>& ids);
 GALE_EXPORT GlobalIds distinct_of(const std::string& label, std::vector<GlobalId> ids);
 
 /// Finds the places of global ids among some that ascend: by bits, one for each id between the least and the greatest,
-/// where these take no more than 16 bytes an id, else by bisection; where there are many lookups, by a table.
+/// where these take no more than 16 bytes an id, else by bisection among the few that have the same leading bits; where
+/// there are many lookups, by a table.
 class GALE_EXPORT GlobalIndex {
  public:
   /// Whether so many are looked up that a table of places is worth its memory, 4 bytes for each id between the least
@@ -46,7 +47,7 @@ class GALE_EXPORT GlobalIndex {
   Id find(GlobalId id) const {
     const auto at = static_cast<std::uint64_t>(id) - first_;
     if (places_.extent(0) != 0) return at < places_.extent(0) ? places_(at) : no_id;
-    if (words_.extent(0) == 0) return bisect(id);
+    if (words_.extent(0) == 0) return find_in_bucket(id);
     if (at >> 6 >= words_.extent(0)) return no_id;
     const CountedWord& word = words_(at >> 6);
     const int place = static_cast<int>(at & 63);
@@ -59,12 +60,17 @@ class GALE_EXPORT GlobalIndex {
 
  private:
   void mark_in_words(std::uint64_t words);
-  Id bisect(GlobalId id) const;
+  void divide(std::uint64_t span);
+  Id find_in_bucket(GlobalId id) const;
+
+  std::uint64_t bucket(GlobalId id) const { return (static_cast<std::uint64_t>(id) - first_) >> shift_; }
 
   Array<const GlobalId, HostMemory> ids_;
   std::uint64_t first_ = 0;               ///< the least id
-  Array<CountedWord, HostMemory> words_;  ///< bit id - first is set where an id is there; none where it bisects
+  Array<CountedWord, HostMemory> words_;  ///< bit id - first is set where an id is there
   Array<Id, HostMemory> places_;          ///< the table, from the least id on: no_id where there is none
+  Array<Id, HostMemory> begin_;           ///< else of each bucket, and their end
+  int shift_ = 0;  ///< ids that are alike but for so many last bits, from the least one on, share a bucket
 };
 
 /// Calls visit(i, place) for each of `some`, with its place among these and `others` together: all ascend, none is

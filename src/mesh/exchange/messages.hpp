@@ -11,6 +11,7 @@
 #include <gale/base/memory.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/threads.hpp>
+#include <gale/base/transfer.hpp>
 #include <gale/base/types.hpp>
 #include <gale/mesh/exchange/packed_rows.hpp>
 #include <gale/mesh/ranks.hpp>
@@ -207,16 +208,47 @@ EntriesByRank<T> exchange_each(const Ranks& ranks, const char* label, const std:
                              [&](Id i) { return entries[i].second; }));
 }
 
-/// What all ranks have, on the first one; nothing on the others. Collective.
-template <class T>
-EntriesByRank<T> to_first(const Ranks& ranks, const char* label, const std::vector<T>& entries) {
-  EntriesByRank<T> sent;
+/// What all ranks have of several lists, on the first one; nothing on the others. Collective.
+template <class... T>
+std::tuple<EntriesByRank<T>...> lists_to_first(const Ranks& ranks, const char* label, const std::vector<T>&... lists) {
+  std::tuple<EntriesByRank<T>...> sent;
   together(ranks, [&] {
-    sent.entries = Array<T, HostMemory>(const_cast<T*>(entries.data()), entries.size());  // nobody writes to it
-    sent.begin.assign(ranks.size() + 1, static_cast<Offset>(entries.size()));
-    sent.begin[0] = 0;
+    const auto for_first = [&](const auto& list) {
+      using Entry = typename std::decay_t<decltype(list)>::value_type;
+      std::vector<Offset> begin(ranks.size() + 1, static_cast<Offset>(list.size()));
+      begin[0] = 0;
+      const Array<Entry, HostMemory> entries(const_cast<Entry*>(list.data()), list.size());  // nobody writes to it
+      return EntriesByRank<Entry>{entries, std::move(begin)};
+    };
+    sent = {for_first(lists)...};
   });
-  return exchange_packed(ranks, label, sent);
+  return std::apply([&](auto&... all) { return exchange_lists(ranks, label, std::move(all)...); }, sent);
+}
+
+/// What all ranks have of one list, likewise. Collective.
+template <class T>
+EntriesByRank<T> to_first(const Ranks& ranks, const char* label, const std::vector<T>& list) {
+  return std::get<0>(lists_to_first(ranks, label, list));
+}
+
+/// What all ranks have of several lists, one rank after the other, on each of them. Collective.
+template <class... T>
+std::tuple<std::vector<T>...> lists_of_all(const Ranks& ranks, const char* label, const std::vector<T>&... lists) {
+  std::tuple<EntriesByRank<T>...> sent;
+  together(ranks, [&] {
+    const auto for_each_rank = [&](const auto& list) {
+      using Entry = typename std::decay_t<decltype(list)>::value_type;
+      const auto all =
+          room_by_rank<Entry>(label, std::vector<std::int64_t>(ranks.size(), static_cast<std::int64_t>(list.size())));
+      for (int rank = 0; rank < ranks.size(); ++rank)
+        std::copy(list.begin(), list.end(), all.entries.data() + all.begin[rank]);
+      return all;
+    };
+    sent = {for_each_rank(lists)...};
+  });
+  const auto received = std::apply([&](auto&... all) { return exchange_lists(ranks, label, std::move(all)...); }, sent);
+  const auto listed = [](const auto& some) { return vector_of(some.entries); };
+  return std::apply([&](const auto&... all) { return std::make_tuple(listed(all)...); }, received);
 }
 
 /// What the ranks answer to a question about each of the items 0..items-1, by item: what answer_all(questions, answers)
