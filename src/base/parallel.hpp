@@ -33,9 +33,11 @@ namespace detail {
 /// The i-th of `count` nearly equal parts of 0..n-1 begins here.
 inline Offset part_begin(Offset n, int count, int i) { return n * i / count; }
 
+/// How many threads a loop over 0..n-1 is worth: one, where that is done before others wake, else all that have a part
+/// worth the while.
 inline int threads_for(Offset n) {
-  constexpr Offset worth_a_thread = 4096;
-  return static_cast<int>(std::clamp<Offset>(n / worth_a_thread, 1, host_threads()));
+  constexpr Offset worth_waking = 2048, worth_a_thread = 512;
+  return n < worth_waking ? 1 : static_cast<int>(std::min<Offset>(n / worth_a_thread, host_threads()));
 }
 
 template <class Body>

@@ -81,7 +81,8 @@ void place_digits(const Entries& from, Offset n, int digits, const DigitOf& digi
 template <class Entries>
 Entries sort_by_digits(Entries from, Entries to, Offset n, int begin, int end) {
   const int passes = (end - begin + most_digit_bits - 1) / most_digit_bits;
-  std::vector<Histogram> place(detail::threads_for(n));
+  const Offset worth_counting = Offset(1) << most_digit_bits;  // of as many keys as there are places for each part
+  std::vector<Histogram> place(std::clamp<Offset>(n / worth_counting, 1, detail::threads_for(n)));
   for (int pass = 0; pass < passes; ++pass) {
     const int bits = (end - begin + passes - pass - 1) / (passes - pass), shift = begin;
     begin += bits;

@@ -7,6 +7,7 @@
 #include <exception>
 #include <functional>
 #include <future>
+#include <iterator>
 #include <mutex>
 #include <string>
 #include <system_error>
@@ -138,47 +139,75 @@ void meanwhile(const Beside& beside, const Here& here) {
   begun.get();
 }
 
-/// Calls `body(thread, item, add)` for each of some items, and for each that a body gives to add(item), on `count`
-/// threads, in the order in which they were given: one that waits for an item gets it at once. Exceptions as in
-/// `in_turns`: after one, what is added is left.
-template <class Item, class Body>
-void in_turns_with_more(int count, const std::vector<Item>& items, const Body& body) {
-  if (items.empty()) return;
-  std::mutex mutex;
-  std::condition_variable changed;
-  std::deque<Item> left(items.begin(), items.end());
-  int busy = 0;  // threads that may still add some
-  bool has_failed = false;
-  const auto add = [&](const Item& item) {
-    const std::lock_guard<std::mutex> lock(mutex);
-    if (has_failed) return;
-    left.push_back(item);
-    changed.notify_one();
-  };
-  on_threads(count, [&](int thread) {
-    std::unique_lock<std::mutex> lock(mutex);
+/// Items that threads take in turns, while what they do with one adds others.
+template <class Item>
+class SharedItems {
+ public:
+  explicit SharedItems(std::vector<Item> items)
+      : left_(std::make_move_iterator(items.begin()), std::make_move_iterator(items.end())) {}
+
+  /// Adds one: a thread that waits for an item gets it at once.
+  void operator()(Item item) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (has_failed_) return;
+    left_.push_back(std::move(item));
+    note_waiting();
+    changed_.notify_one();
+  }
+
+  /// Whether threads wait, for more items than are left.
+  bool are_short() const { return missing_.load(std::memory_order_relaxed) > 0; }
+
+  /// Calls body(item) for each that this thread takes, until none is left and no thread may add one.
+  template <class Body>
+  void take_all(const Body& body) {
+    std::unique_lock<std::mutex> lock(mutex_);
     for (;;) {
-      changed.wait(lock, [&] { return !left.empty() || busy == 0; });
-      if (left.empty()) return;
-      const Item item = left.front();
-      left.pop_front();
-      ++busy;
+      ++waiting_;
+      note_waiting();
+      changed_.wait(lock, [&] { return !left_.empty() || busy_ == 0; });
+      --waiting_;
+      if (left_.empty()) return;
+      const Item item = std::move(left_.front());
+      left_.pop_front();
+      note_waiting();
+      ++busy_;
       lock.unlock();
       try {
         stop_if_asked();
-        body(thread, item, add);
+        body(item);
       } catch (...) {
         lock.lock();
-        has_failed = true;
-        left.clear();
-        --busy;
-        changed.notify_all();
+        has_failed_ = true;
+        left_.clear();
+        --busy_;
+        changed_.notify_all();
         throw;
       }
       lock.lock();
-      if (--busy == 0) changed.notify_all();
+      if (--busy_ == 0) changed_.notify_all();
     }
-  });
+  }
+
+ private:
+  void note_waiting() { missing_.store(waiting_ - static_cast<int>(left_.size()), std::memory_order_relaxed); }
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Item> left_;
+  int waiting_ = 0, busy_ = 0;  ///< threads that wait for items, and that may still add some
+  bool has_failed_ = false;
+  std::atomic<int> missing_{0};
+};
+
+/// Calls `body(thread, item, more)` for each of some items, and for each that a body adds to these by more(item), on
+/// `count` threads, in the order in which they were given. Exceptions as in `in_turns`: after one, what is added is
+/// left.
+template <class Item, class Body>
+void in_turns_with_more(int count, std::vector<Item> items, const Body& body) {
+  if (items.empty()) return;
+  SharedItems<Item> all(std::move(items));
+  on_threads(count, [&](int thread) { all.take_all([&](const Item& item) { body(thread, item, all); }); });
 }
 
 /// A new thread that runs `body`. Throws Error where the system starts no more.

@@ -83,7 +83,7 @@ TEST(OnThreads, lets_bodies_loop_on_their_own_thread) {
 TEST(InTurnsWithMore, calls_each_item_once_and_what_it_adds) {
   for (const int count : {1, 2, 16}) {
     std::vector<std::atomic<int>> calls(127);
-    detail::in_turns_with_more(count, std::vector<int>{0}, [&](int thread, int item, const auto& add) {
+    detail::in_turns_with_more(count, std::vector<int>{0}, [&](int thread, int item, auto& add) {
       EXPECT_LT(thread, count);
       ++calls.at(item);
       for (const int more : {2 * item + 1, 2 * item + 2}) {
@@ -98,7 +98,7 @@ TEST(InTurnsWithMore, ends_where_a_body_throws) {
   for (const int count : {1, 4}) {
     std::atomic<int> calls{0};
     const auto run = [&] {
-      detail::in_turns_with_more(count, std::vector<int>{0}, [&](int, int item, const auto& add) {
+      detail::in_turns_with_more(count, std::vector<int>{0}, [&](int, int item, auto& add) {
         ++calls;
         if (item == 9) throw std::runtime_error("item 9");
         add(item + 1);
@@ -111,12 +111,26 @@ TEST(InTurnsWithMore, ends_where_a_body_throws) {
 
 TEST(InTurnsWithMore, begins_nothing_that_is_added_after_a_body_threw) {
   for (int run = 0; run < 200; ++run) {
-    const auto add_for_ever = [](int, int item, const auto& add) {
+    const auto add_for_ever = [](int, int item, auto& add) {
       add(item + 1);
       if (item == 9) throw std::runtime_error("item 9");
     };
     EXPECT_THROW(detail::in_turns_with_more(4, std::vector<int>{0}, add_for_ever), std::runtime_error);
   }
+}
+
+TEST(InTurnsWithMore, says_where_threads_wait_for_more) {
+  detail::in_turns_with_more(1, std::vector<int>{0, 1}, [](int, int, auto& more) { EXPECT_FALSE(more.are_short()); });
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  std::atomic<int> calls{0};
+  detail::in_turns_with_more(2, std::vector<int>{0}, [&](int, int item, auto& more) {
+    ++calls;
+    if (item > 0) return;
+    while (!more.are_short() && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+    EXPECT_TRUE(more.are_short()) << "the other thread has nothing to do";
+    more(1);
+  });
+  EXPECT_EQ(calls, 2);
 }
 
 TEST(HostThreads, are_as_many_as_were_set_on_any_thread) {
