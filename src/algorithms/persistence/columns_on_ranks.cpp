@@ -52,11 +52,9 @@ class FallOnRanks {
     together(ranks_, [&] {
       number_.assign(columns_.saddles(), no_id);
       columns_.for_each_met([&](Id edge, const Column&) { number_[edge] = first_met++; });
-      const auto& stopped = columns_.stopped();
-      fall_all(stopped.size(), [&](EdgeChain& chain, std::int64_t i) {
-        chain.add(stopped[i].rim);
-        return first_stopped + static_cast<Id>(i);
-      });
+      std::vector<Falling> stopped;
+      for (const Column& column : columns_.stopped()) stopped.push_back({first_stopped++, &column.rim, {}});
+      fall_all(std::move(stopped));
     });
     while (ranks_.sum(static_cast<std::int64_t>(exits_.size())) != 0) hand_over();
     auto all = noted_to_first(ranks_, "GALE::column_edges", fallen_);
@@ -74,24 +72,23 @@ class FallOnRanks {
     std::vector<SentEdge> exits;
   };
 
-  /// Lets some columns fall, and those whose edges they meet, each of these from when it is met. begin(chain, i) adds
-  /// the i-th one's edges, and returns its number.
-  template <class Begin>
-  void fall_all(std::size_t count, const Begin& begin) {
-    if (count == 0) return;
+  /// What is to fall of a column: all of its rim, or a part.
+  struct Falling {
+    Id column;
+    const std::vector<LowerEdge>* rim;
+    std::vector<LowerEdge> part;  ///< where there is no rim
+
+    const std::vector<LowerEdge>& edges() const { return rim != nullptr ? *rim : part; }
+  };
+
+  /// Lets some columns fall, and those whose edges they meet, each of these from when it is met.
+  void fall_all(std::vector<Falling> columns) {
+    if (columns.empty()) return;
     const EdgeChain empty(gradient_);  // brings the gradient to the host, on all threads
     std::vector<std::unique_ptr<Fall>> falls(threads_);
-    std::vector<ColumnEdge> columns(count);  // the first ones by their places, without an edge that they have met
-    for (std::size_t i = 0; i < count; ++i) columns[i] = {static_cast<Id>(i), no_id};
-    in_turns_with_more(threads_, columns, [&](int thread, ColumnEdge column, const auto& add) {
+    in_turns_with_more(threads_, std::move(columns), [&](int thread, const Falling& falling, auto& more) {
       if (!falls[thread]) falls[thread] = std::make_unique<Fall>(empty);
-      Fall& here = *falls[thread];
-      if (column.edge == no_id) {
-        column.column = begin(here.chain, column.column);
-      } else {
-        here.chain.add(columns_.owner(column.edge)->rim);
-      }
-      fall_to_end(column.column, here, add);
+      fall_to_end(falling, *falls[thread], more);
     });
     append_taken(falls, &Fall::fallen, fallen_);
     append_taken(falls, &Fall::exits, exits_);
@@ -108,20 +105,26 @@ class FallOnRanks {
     }
   }
 
-  /// Lets a column fall, and calls on_met with others that it meets.
-  template <class OnMet>
-  void fall_to_end(Id column, Fall& here, const OnMet& on_met) {
+  /// Lets what there is of a column fall, and adds others that it meets to what falls; where threads wait for such,
+  /// half of a wide column, too: it is a sum.
+  void fall_to_end(const Falling& falling, Fall& here, SharedItems<Falling>& more) {
+    constexpr int stars_at_once = 64;
+    constexpr std::size_t wide = 64;
     const OtherIds input = mesh_.vertices_in_input();
-    here.chain.fall_to_end(
-        [&](Id high, Id low) {
-          const Id edge = places_.of_edge(high, low);
-          here.fallen.push_back({column, edge});
-          const Id other = atomic_read(&number_[edge]) == no_id ? no_id : atomic_exchange(&number_[edge], no_id);
-          if (other != no_id) on_met(ColumnEdge{other, edge});
-        },
-        [&](Id high, Id low) {
-          here.exits.push_back({mesh_.vertex_id(input[high]), mesh_.vertex_id(input[low]), column});
-        });
+    const Id column = falling.column;
+    const auto on_critical = [&](Id high, Id low) {
+      const Id edge = places_.of_edge(high, low);
+      here.fallen.push_back({column, edge});
+      const Id other = atomic_read(&number_[edge]) == no_id ? no_id : atomic_exchange(&number_[edge], no_id);
+      if (other != no_id) more({other, &columns_.owner(edge)->rim, {}});
+    };
+    const auto elsewhere = [&](Id high, Id low) {
+      here.exits.push_back({mesh_.vertex_id(input[high]), mesh_.vertex_id(input[low]), column});
+    };
+    here.chain.add(falling.edges());
+    while (here.chain.fall_from(stars_at_once, on_critical, elsewhere)) {
+      if (here.chain.size() >= wide && more.are_short()) more({column, nullptr, here.chain.split()});
+    }
   }
 
   void hand_over() {
@@ -136,16 +139,13 @@ class FallOnRanks {
       std::vector<SentEdge> edges(received.entries.data(), received.entries.data() + received.count());
       std::stable_sort(edges.begin(), edges.end(),
                        [](const SentEdge& a, const SentEdge& b) { return a.column < b.column; });
-      std::vector<std::size_t> begin;  // of each column's edges
-      for (std::size_t i = 0; i < edges.size(); ++i) {
-        if (i == 0 || edges[i].column != edges[i - 1].column) begin.push_back(i);
+      std::vector<Falling> columns;
+      for (const SentEdge& edge : edges) {
+        const auto column = static_cast<Id>(edge.column);
+        if (columns.empty() || columns.back().column != column) columns.push_back({column, nullptr, {}});
+        columns.back().part.push_back({here(edge.high), here(edge.low)});
       }
-      begin.push_back(edges.size());
-      fall_all(begin.size() - 1, [&](EdgeChain& chain, std::int64_t column) {
-        for (std::size_t i = begin[column]; i < begin[column + 1]; ++i)
-          chain.add(here(edges[i].high), here(edges[i].low));
-        return static_cast<Id>(edges[begin[column]].column);
-      });
+      fall_all(std::move(columns));
     });
   }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -64,11 +65,11 @@ class EdgeChain {
     return Fall::vanished;
   }
 
-  /// Lets all of it fall, to critical edges and such as are another rank's to follow. Calls on_critical(high, low) and
-  /// elsewhere(high, low) with each.
+  /// Lets it fall from so many stars, to critical edges and such as are another rank's to follow. Calls
+  /// on_critical(high, low) and elsewhere(high, low) with each. Returns whether something is left to fall.
   template <class OnCritical, class Elsewhere>
-  void fall_to_end(const OnCritical& on_critical, const Elsewhere& elsewhere) {
-    while (!heap_.empty()) {
+  bool fall_from(int stars, const OnCritical& on_critical, const Elsewhere& elsewhere) {
+    for (; stars > 0 && !heap_.empty(); --stars) {
       stop_if_asked_at(++steps_);
       const Id high = take_star();
       if (!owned_.has(high)) {
@@ -78,6 +79,27 @@ class EdgeChain {
       cross_star(high);
       for (const Id low : critical_) on_critical(high, low);
     }
+    return !heap_.empty();
+  }
+
+  /// How many edges it has, each as often as it is there.
+  std::size_t size() const { return heap_.size(); }
+
+  /// Takes about half of it out, to fall as a sum of its own: edges whose higher ends lie together, all of each star.
+  std::vector<LowerEdge> split() {
+    std::vector<Id> highs;
+    highs.reserve(heap_.size());
+    for (const Entry& entry : heap_) highs.push_back(entry.edge.high);
+    const auto middle = highs.begin() + static_cast<std::ptrdiff_t>(highs.size() / 2);
+    std::nth_element(highs.begin(), middle, highs.end());
+    const auto taken =
+        std::partition(heap_.begin(), heap_.end(), [&](const Entry& entry) { return entry.edge.high < *middle; });
+    std::vector<LowerEdge> part;
+    part.reserve(static_cast<std::size_t>(heap_.end() - taken));
+    for (auto entry = taken; entry != heap_.end(); ++entry) part.push_back(entry->edge);
+    heap_.erase(taken, heap_.end());
+    std::make_heap(heap_.begin(), heap_.end());
+    return part;
   }
 
   /// Its edges, some of them perhaps an odd number of times: what `add` takes.

@@ -17,11 +17,13 @@ struct SentEnd {
 };
 using SentEnds = std::array<SentEnd, 2>;
 
-/// What ends_of_edges finds, for this rank's critical edges, where paths may end on others. `places` has those of this
-/// rank's critical simplices. Collective.
-std::vector<SentEnds> ends_of_edges_on_ranks(const DiscreteGradient& gradient, const CriticalPlaces& places);
+/// The ends of the paths from this rank's critical edges and facets.
+struct EndsOfSaddles {
+  std::vector<SentEnds> of_edges, of_facets;
+};
 
-/// What ends_of_facets finds, for this rank's critical facets, where paths may end on others. Collective.
-std::vector<SentEnds> ends_of_facets_on_ranks(const DiscreteGradient& gradient, const CriticalPlaces& places);
+/// What ends_of_edges and ends_of_facets find, where paths may end on other ranks. `places` has those of this rank's
+/// critical simplices. Collective.
+EndsOfSaddles ends_on_ranks(const DiscreteGradient& gradient, const CriticalPlaces& places);
 
 }  // namespace gale::detail

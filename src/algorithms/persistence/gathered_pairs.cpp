@@ -1,7 +1,12 @@
 #include <algorithm>
+#include <array>
+#include <cstdint>
+#include <exception>
 #include <memory>
 #include <optional>
+#include <tuple>
 #include <utility>
+#include <vector>
 
 #include <gale/algorithms/excerpt/excerpt_mesh.hpp>
 #include <gale/algorithms/excerpt/gathering.hpp>
@@ -33,24 +38,19 @@ class PairsOnRanks {
     together(ranks_, [&] {
       gradient.store().bring_pairs_to_host();
       places_.emplace(critical_);
-      own_ = filtration_of(gradient, threads);
     });
   }
 
   GatheredPairs find() {
-    const auto of_edges = ends_of_edges_on_ranks(gradient_, *places_);
-    const auto of_facets = ends_of_facets_on_ranks(gradient_, *places_);
     gather();
-    const auto edge_ends_of_all = to_first(ranks_, "GALE::ends_of_edges", of_edges);
-    const auto facet_ends_of_all = to_first(ranks_, "GALE::ends_of_facets", of_facets);
     std::optional<PairsOfExtrema> pairs;
     GatheredPairs found{mesh_, {}, {}};
     together(ranks_, [&] {
       found.mesh = name_highest(found.highest);
       if (!is_first_) return;
       ExtremumEnds ends;
-      ends.of_edges = ends_in(edge_ends_of_all, all_[1], all_[0]);
-      ends.of_facets = ends_in(facet_ends_of_all, all_[mesh_.dimension() - 1], all_[mesh_.dimension()]);
+      ends.of_edges = ends_in(ends_of_edges_, all_[1], all_[0]);
+      ends.of_facets = ends_in(ends_of_facets_, all_[mesh_.dimension() - 1], all_[mesh_.dimension()]);
       pairs.emplace(filtration_, ends, mesh_.dimension(), threads_);
     });
     std::vector<Id> uppers;
@@ -71,23 +71,37 @@ class PairsOnRanks {
  private:
   using All = std::optional<SimplicesOfAll>;
 
-  /// Brings the critical simplices of all ranks to the first, and its highest vertex from each.
+  /// Brings the critical simplices of all ranks to the first, with the ends of saddles, and its highest vertex from
+  /// each.
   void gather() {
     std::array<std::vector<SentSimplex>, 4> own;
     std::vector<SentSimplex> highest;
+    std::exception_ptr failure;
+    EndsOfSaddles ends;
+    const auto sort_own = [&] {
+      try {
+        own_ = filtration_of(gradient_, threads_);
+        own = simplices_to_send(gradient_, own_);
+        highest = highest_to_send(gradient_);
+      } catch (...) {
+        failure = std::current_exception();  // of which the others hear when they have followed paths
+      }
+    };
+    meanwhile(sort_own, [&] { ends = ends_on_ranks(gradient_, *places_); });
     std::vector<std::int64_t> bytes(ranks_.size(), 0);
     together(ranks_, [&] {
-      own = simplices_to_send(gradient_, own_);
-      highest = highest_to_send(gradient_);
+      if (failure) std::rethrow_exception(failure);
       for (const auto& some : own) bytes[0] += static_cast<std::int64_t>(some.size() * sizeof(SentSimplex));
-      bytes[0] +=
-          static_cast<std::int64_t>((critical_.edges.size() + critical_.star_begin.size() - 1) * sizeof(SentEnds));
+      bytes[0] += static_cast<std::int64_t>((ends.of_edges.size() + ends.of_facets.size()) * sizeof(SentEnds));
     });
     require_room(ranks_, "critical simplices", bytes, most_bytes_);
-    for (int d = 0; d <= mesh_.dimension(); ++d) {
-      auto received = to_first(ranks_, "GALE::critical_of_all", own[d]);
-      together(ranks_, [&] {
-        const SimplicesOfAll& all = all_[d].emplace(std::move(received));
+    std::array<EntriesByRank<SentSimplex>, 4> received;
+    std::tie(received[0], received[1], received[2], received[3], highest_, ends_of_edges_, ends_of_facets_) =
+        lists_to_first(ranks_, "GALE::critical_of_all", own[0], own[1], own[2], own[3], highest, ends.of_edges,
+                       ends.of_facets);
+    together(ranks_, [&] {
+      for (int d = 0; d <= mesh_.dimension(); ++d) {
+        const SimplicesOfAll& all = all_[d].emplace(std::move(received[d]));
         std::vector<Id>& by_rank = filtration_.by_rank[d];
         std::vector<Id>& rank = filtration_.rank[d];
         by_rank = unwritten<Id>(all.from_rank.size());
@@ -96,9 +110,8 @@ class PairsOnRanks {
           by_rank[i] = all.place.entries(all.from_rank[i]);
           rank[by_rank[i]] = static_cast<Id>(i);
         });
-      });
-    }
-    highest_ = to_first(ranks_, "GALE::highest_of_all", highest);
+      }
+    });
   }
 
   /// Makes a mesh of the vertices that are the highest of critical simplices.
@@ -185,6 +198,7 @@ class PairsOnRanks {
   Filtration own_, filtration_;  ///< of this rank's simplices, and on the first one of those of all
   std::array<All, 4> all_;
   EntriesByRank<SentSimplex> highest_;
+  EntriesByRank<SentEnds> ends_of_edges_, ends_of_facets_;
 };
 
 }  // namespace
