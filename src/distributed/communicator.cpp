@@ -100,6 +100,10 @@ Communicator::Communicator(MPI_Comm comm, std::size_t largest_message) {
 int Communicator::rank() const { return data_->rank; }
 int Communicator::size() const { return data_->size; }
 void Communicator::note_gathered(std::int64_t bytes) const { data_->sent.gathered += bytes; }
+void Communicator::note_sent(std::int64_t messages, std::int64_t bytes) const {
+  data_->sent.messages += messages;
+  data_->sent.bytes += bytes;
+}
 const SentMessages& Communicator::sent() const { return data_->sent; }
 
 void Communicator::sum(std::int64_t* values, int count) const {
@@ -144,6 +148,12 @@ std::vector<std::int64_t> Communicator::exchange_counts(const std::vector<std::i
     MPI_Ialltoall(counts.data(), 1, MPI_INT64_T, theirs.data(), 1, MPI_INT64_T, data_->comm, request);
   });
   return theirs;
+}
+
+void Communicator::exchange_blocks(const char* from, char* to, std::int64_t size) const {
+  const int bytes = static_cast<int>(size);
+  data_->complete(
+      [&](MPI_Request* request) { MPI_Ialltoall(from, bytes, MPI_BYTE, to, bytes, MPI_BYTE, data_->comm, request); });
 }
 
 void Communicator::exchange_bytes(const char* from, const std::vector<std::int64_t>& send_begin, char* to,

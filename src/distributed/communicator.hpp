@@ -37,8 +37,10 @@ class GALE_EXPORT Communicator final : public Ranks {
   std::vector<std::int64_t> exchange_counts(const std::vector<std::int64_t>& counts) const override;
   void exchange_bytes(const char* from, const std::vector<std::int64_t>& send_begin, char* to,
                       const std::vector<std::int64_t>& receive_begin) const override;
+  void exchange_blocks(const char* from, char* to, std::int64_t size) const override;
   const SentMessages& sent() const override;
   void note_gathered(std::int64_t bytes) const override;
+  void note_sent(std::int64_t messages, std::int64_t bytes) const override;
 
  private:
   struct Data;

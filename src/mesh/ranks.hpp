@@ -29,8 +29,8 @@ struct SentMessages {
 
 /// The ranks that a mesh lies on, which send one another messages: a Communicator of MPI's, or a process alone.
 ///
-/// All functions but rank(), size(), is_alone(), sent() and note_gathered() are collective: every rank calls them, in
-/// the same order.
+/// All functions but rank(), size(), is_alone(), sent(), note_gathered() and note_sent() are collective: every rank
+/// calls them, in the same order.
 class GALE_EXPORT Ranks {
  public:
   virtual ~Ranks() = default;
@@ -77,11 +77,16 @@ class GALE_EXPORT Ranks {
   virtual void exchange_bytes(const char* from, const std::vector<std::int64_t>& send_begin, char* to,
                               const std::vector<std::int64_t>& receive_begin) const = 0;
 
+  /// Sends each rank r the `size` bytes from `from + r * size` on, and receives as many from each likewise. For little:
+  /// all of it takes one step. sent() doesn't count them.
+  virtual void exchange_blocks(const char* from, char* to, std::int64_t size) const = 0;
+
   /// What this rank has sent through exchange_bytes so far, and how long it has waited in all these functions.
   virtual const SentMessages& sent() const = 0;
 
-  /// Adds to what sent() says was gathered. Not collective.
+  /// Adds to what sent() says was gathered, and was sent. Not collective.
   virtual void note_gathered(std::int64_t) const {}
+  virtual void note_sent(std::int64_t /*messages*/, std::int64_t /*bytes*/) const {}
 };
 
 namespace detail {
@@ -99,22 +104,32 @@ std::vector<std::array<std::int64_t, count>> all_numbers(const Ranks& ranks,
 /// Throws SharedError if one rank has `failed`: what the lowest such rank says, with its name.
 GALE_EXPORT void fail_together(const Ranks& ranks, bool failed, const std::string& failure);
 
+/// What became of an action on this rank.
+struct Outcome {
+  bool has_failed = false;
+  std::string failure;  ///< what the exception says that it threw
+};
+
+/// Runs an action, which may throw.
+template <class Action>
+Outcome tried(const Action& action) {
+  try {
+    action();
+    return {};
+  } catch (const std::exception& error) {
+    return {true, error.what()};
+  } catch (...) {
+    return {true, "unknown exception"};
+  }
+}
+
 /// Runs an action on each rank that sends nothing to others. If it throws on some, all ranks throw the same SharedError
 /// when all have ended: nobody waits for a rank that has given up. A process alone just runs it.
 template <class Action>
 void together(const Ranks& ranks, const Action& action) {
   if (ranks.is_alone()) return action();
-  std::string failure;
-  bool failed = true;
-  try {
-    action();
-    failed = false;
-  } catch (const std::exception& error) {
-    failure = error.what();
-  } catch (...) {
-    failure = "unknown exception";
-  }
-  fail_together(ranks, failed, failure);
+  const Outcome outcome = tried(action);
+  fail_together(ranks, outcome.has_failed, outcome.failure);
 }
 
 }  // namespace detail

@@ -99,16 +99,11 @@ class Reacher {
     leave_cells();
   }
 
-  /// Hands over what other ranks have to follow, and takes what they hand over. False if nobody had anything.
-  /// Collective.
-  bool hand_over() {
-    if (ranks_.sum(static_cast<std::int64_t>(elsewhere_.size())) == 0) return false;
-    const auto received = exchange_each(ranks_, "GALE::steps", elsewhere_);
-    elsewhere_.clear();
-    together(ranks_, [&] {
-      for (Offset i = 0; i < received.count(); ++i) go(here(received.entries(i)));
-    });
-    return true;
+  /// Takes steps of ways that come here, follows them, and returns what others have to follow.
+  EntriesByRank<SentStep> follow(const EntriesByRank<SentStep>& received) {
+    for (Offset i = 0; i < received.count(); ++i) go(here(received.entries(i)));
+    follow();
+    return entries_by_rank(ranks_.size(), "GALE::steps", std::exchange(elsewhere_, {}));
   }
 
   /// What was found for all ranks, when nobody has anything left.
@@ -291,9 +286,7 @@ Reached reach(const DiscreteGradient& gradient, const WantedWays& ways, Structur
     reacher = std::make_unique<Reacher>(gradient, ways, rows);
     reacher->begin();
   });
-  do {
-    together(ranks, [&] { reacher->follow(); });
-  } while (reacher->hand_over());
+  in_rounds<SentStep>(ranks, "GALE::steps", [&](const auto& received) { return reacher->follow(received); });
   FoundForRanks& found = reacher->found();
   together(ranks, [&] { found.number_vertices(); });
   require_room(ranks, "what critical simplices reach", found.bytes(), most_bytes);

@@ -103,26 +103,12 @@ class WaysBeyond {
     falling_[ranks_.rank()] = exits.edges;
   }
 
-  /// Lets edges fall that have come here, with all that they come to.
-  void fall() {
-    for (int asker = 0; asker < ranks_.size(); ++asker) {
-      if (falling_[asker].empty()) continue;
-      if (!falls_[asker]) falls_[asker] = std::make_unique<EdgeFall>(gradient_, asker == ranks_.rank());
-      for (const auto& [high, low] : falls_[asker]->fall(std::exchange(falling_[asker], {})))
-        hand_on(mesh_.exchange().owner(input_[high]), {WayKind::falling_edges, asker, global(high), global(low)});
-    }
-  }
-
-  /// Hands over what other ranks have to follow, and takes what they hand over. False if nobody had anything.
-  /// Collective.
-  bool hand_over() {
-    if (ranks_.sum(static_cast<std::int64_t>(elsewhere_.size())) == 0) return false;
-    const auto received = exchange_each(ranks_, "GALE::ways", elsewhere_);
-    elsewhere_.clear();
-    together(ranks_, [&] {
-      for (Offset i = 0; i < received.count(); ++i) take(received.entries(i));
-    });
-    return true;
+  /// Takes ways that come here, lets their edges fall with all that these come to, and returns what others have to
+  /// follow.
+  EntriesByRank<SentWay> follow(const EntriesByRank<SentWay>& received) {
+    for (Offset i = 0; i < received.count(); ++i) take(received.entries(i));
+    fall();
+    return entries_by_rank(ranks_.size(), "GALE::ways", std::exchange(elsewhere_, {}));
   }
 
   /// What was found for the others, when nobody has anything left.
@@ -144,6 +130,15 @@ class WaysBeyond {
 
  private:
   PathsBeyond& paths(WayKind kind) { return kind == WayKind::falling_vertices ? vertices_ : cells_; }
+
+  void fall() {
+    for (int asker = 0; asker < ranks_.size(); ++asker) {
+      if (falling_[asker].empty()) continue;
+      if (!falls_[asker]) falls_[asker] = std::make_unique<EdgeFall>(gradient_, asker == ranks_.rank());
+      for (const auto& [high, low] : falls_[asker]->fall(std::exchange(falling_[asker], {})))
+        hand_on(mesh_.exchange().owner(input_[high]), {WayKind::falling_edges, asker, global(high), global(low)});
+    }
+  }
 
   GlobalId global(Id vertex) const { return mesh_.vertex_id(input_[vertex]); }
   Id local(GlobalId vertex) const { return internal_[mesh_.vertex_of(vertex)]; }
@@ -184,9 +179,7 @@ Reached reach_beyond(const DiscreteGradient& gradient, const PathSimplices& cell
   const Ranks& ranks = gradient.mesh().exchange().ranks();
   std::unique_ptr<WaysBeyond> ways;
   together(ranks, [&] { ways = std::make_unique<WaysBeyond>(gradient, cells, exits); });
-  do {
-    together(ranks, [&] { ways->fall(); });
-  } while (ways->hand_over());
+  in_rounds<SentWay>(ranks, "GALE::ways", [&](const auto& received) { return ways->follow(received); });
   FoundForRanks* found = nullptr;
   together(ranks, [&] { found = &ways->found(); });
   require_room(ranks, "what critical simplices reach", found->bytes(), 0);

@@ -49,14 +49,17 @@ class FallOnRanks {
   /// The critical edges of the columns that have stopped, of all that have met one of these edges, and so on: on the
   /// first rank. This rank's are numbered from these two on, in the order of the edges that they have met. Collective.
   EntriesByRank<ColumnEdge> operator()(Id first_stopped, Id first_met) {
+    std::vector<Falling> falling;
     together(ranks_, [&] {
       number_.assign(columns_.saddles(), no_id);
       columns_.for_each_met([&](Id edge, const Column&) { number_[edge] = first_met++; });
-      std::vector<Falling> stopped;
-      for (const Column& column : columns_.stopped()) stopped.push_back({first_stopped++, &column.rim, {}});
-      fall_all(std::move(stopped));
+      for (const Column& column : columns_.stopped()) falling.push_back({first_stopped++, &column.rim, {}});
     });
-    while (ranks_.sum(static_cast<std::int64_t>(exits_.size())) != 0) hand_over();
+    in_rounds<SentEdge>(ranks_, "GALE::falling_edges", [&](const auto& received) {
+      take(received, falling);
+      fall_all(std::exchange(falling, {}));
+      return sent_exits();
+    });
     auto all = noted_to_first(ranks_, "GALE::column_edges", fallen_);
     fallen_.clear();
     return all;
@@ -127,26 +130,26 @@ class FallOnRanks {
     }
   }
 
-  void hand_over() {
+  /// Takes edges of columns that come here to what is to fall.
+  void take(const EntriesByRank<SentEdge>& received, std::vector<Falling>& falling) const {
     const OtherIds internal = mesh_.vertices_of_input();
     const auto here = [&](GlobalId vertex) { return internal[mesh_.vertex_of(vertex)]; };
-    const auto sent = collect_by_rank<SentEdge>(
-        ranks_, "GALE::sent_edges", static_cast<Offset>(exits_.size()),
-        [&](Id i) { return mesh_.exchange().owner(mesh_.vertex_of(exits_[i].high)); }, [&](Id i) { return exits_[i]; });
-    const auto received = exchange_packed(ranks_, "GALE::received_edges", sent);
-    exits_.clear();
-    together(ranks_, [&] {
-      std::vector<SentEdge> edges(received.entries.data(), received.entries.data() + received.count());
-      std::stable_sort(edges.begin(), edges.end(),
-                       [](const SentEdge& a, const SentEdge& b) { return a.column < b.column; });
-      std::vector<Falling> columns;
-      for (const SentEdge& edge : edges) {
-        const auto column = static_cast<Id>(edge.column);
-        if (columns.empty() || columns.back().column != column) columns.push_back({column, nullptr, {}});
-        columns.back().part.push_back({here(edge.high), here(edge.low)});
-      }
-      fall_all(std::move(columns));
-    });
+    std::vector<SentEdge> edges(received.entries.data(), received.entries.data() + received.count());
+    std::stable_sort(edges.begin(), edges.end(),
+                     [](const SentEdge& a, const SentEdge& b) { return a.column < b.column; });
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      if (i == 0 || edges[i].column != edges[i - 1].column)
+        falling.push_back({static_cast<Id>(edges[i].column), nullptr, {}});
+      falling.back().part.push_back({here(edges[i].high), here(edges[i].low)});
+    }
+  }
+
+  /// What others have to follow, by rank.
+  EntriesByRank<SentEdge> sent_exits() {
+    const std::vector<SentEdge> exits = std::exchange(exits_, {});
+    return entries_by_rank<SentEdge>(
+        ranks_.size(), "GALE::sent_edges", static_cast<Offset>(exits.size()),
+        [&](Id i) { return mesh_.exchange().owner(mesh_.vertex_of(exits[i].high)); }, [&](Id i) { return exits[i]; });
   }
 
   const DiscreteGradient& gradient_;

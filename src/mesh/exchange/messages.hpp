@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <numeric>
 #include <tuple>
 #include <type_traits>
@@ -87,62 +88,119 @@ WordRows rows_of(const EntriesByRank<T>& all, int rank) {
   return {all.entries.data() + all.begin[rank], all.count(rank), sizeof(T) / sizeof(std::uint32_t)};
 }
 
-/// Exchanges several lists of entries, in one message from rank to rank, and in as few bytes as pack_rows makes of
-/// them: ids, places and the like that ascend or lie near one another. A rank's own are copied; the others are let go
-/// when they are packed. Collective.
-template <class... T>
-std::tuple<EntriesByRank<T>...> exchange_lists(const Ranks& ranks, const char* label, EntriesByRank<T>... sent) {
-  const int here = ranks.rank();
-  const auto for_each_other = [&](const EntriesByRank<T>&... lists, const auto& body) {
-    const auto visit = [&](int rank, bool are_many) {
-      if (rank != here && (are_many_to_pack(lists.count(rank)) || ...) == are_many) body(rank);
-    };
-    for (int rank = 0; rank < ranks.size(); ++rank) visit(rank, true);  // by all threads
-    in_turns(threads_for((lists.count() + ...)), ranks.size(),
-             [&](int, std::int64_t rank) { visit(static_cast<int>(rank), false); });
+/// Bytes that ranks have sent here: those of rank r are counts[r] from begin[r] on.
+struct ReceivedBytes {
+  Array<char, HostMemory> bytes;
+  std::vector<Offset> begin;
+  std::vector<std::int64_t> counts;
+  std::int64_t greatest = 0;  ///< of all counts that any rank sends another one
+};
+
+/// Sends each rank what pack() has packed for it, which may throw: then all ranks throw the same SharedError. Where all
+/// messages are short, they go in one step, with the news that nobody has failed. Collective.
+GALE_EXPORT ReceivedBytes exchange_pieces(const Ranks& ranks, const char* label,
+                                          const std::function<std::vector<PackedPieces>()>& pack);
+
+/// Calls body(rank) for each rank but this one, of whose entries in `lists` something is to be packed or unpacked:
+/// those that have many one after the other, for all threads to do so, the others side by side.
+template <class Body, class... T>
+void for_each_other(int here, const Body& body, const EntriesByRank<T>&... lists) {
+  const int ranks = static_cast<int>(std::get<0>(std::tie(lists...)).begin.size()) - 1;
+  const auto visit = [&](int rank, bool are_many) {
+    if (rank != here && (are_many_to_pack(lists.count(rank)) || ...) == are_many) body(rank);
   };
-  EntriesByRank<char> packed;
-  together(ranks, [&] {
-    std::vector<PackedPieces> pieces(ranks.size());
-    for_each_other(sent..., [&](int rank) { pieces[rank] = pack_lists({rows_of(sent, rank)...}); });
-    std::vector<std::int64_t> counts;
-    for (const PackedPieces& some : pieces) counts.push_back(bytes_of(some));
-    packed = room_by_rank<char>(label, counts);
-    for (int rank = 0; rank < ranks.size(); ++rank)
-      write_pieces(pieces[rank], packed.entries.data() + packed.begin[rank]);
-    const auto let_go = [here](auto& list) {
-      if (list.count(here) == 0) list.entries = {};
-    };
-    (let_go(sent), ...);
-  });
-  const EntriesByRank<char> received = exchange(ranks, label, packed);
-  packed = {};
-  std::tuple<EntriesByRank<T>...> unpacked;
-  together(ranks, [&] {
-    std::vector<std::vector<PackedList>> lists;  // by rank
-    for (int rank = 0; rank < ranks.size(); ++rank)
-      lists.push_back(lists_in(received.entries.data() + received.begin[rank], received.count(rank), sizeof...(T)));
+  for (int rank = 0; rank < ranks; ++rank) visit(rank, true);
+  in_turns(threads_for((lists.count() + ...)), ranks,
+           [&](int, std::int64_t rank) { visit(static_cast<int>(rank), false); });
+}
+
+/// Lists of entries that have come from all ranks, as they came.
+template <class Lists>
+class ReceivedLists;
+
+template <class... T>
+class ReceivedLists<std::tuple<EntriesByRank<T>...>> {
+ public:
+  using Lists = std::tuple<EntriesByRank<T>...>;
+
+  ReceivedLists(int here, Lists own, ReceivedBytes received)
+      : here_(here), own_(std::move(own)), received_(std::move(received)) {}
+
+  /// Whether any rank has sent something to another one.
+  bool are_some() const { return received_.greatest > 0; }
+
+  /// Unpacks them. Not collective.
+  Lists unpack(const char* label) const {
+    const int ranks = static_cast<int>(received_.counts.size());
+    std::vector<std::vector<PackedList>> packed;  // by rank
+    for (int rank = 0; rank < ranks; ++rank)
+      packed.push_back(lists_in(received_.bytes.data() + received_.begin[rank], received_.counts[rank], sizeof...(T)));
+    Lists unpacked;
     int at = 0;  // in order of the lists
     const auto make_room = [&](const auto& own, auto& list) {
       std::vector<std::int64_t> counts;
-      for (int rank = 0; rank < ranks.size(); ++rank)
-        counts.push_back(rank == here ? own.count(here) : lists[rank][at].rows());
+      for (int rank = 0; rank < ranks; ++rank)
+        counts.push_back(rank == here_ ? own.count(here_) : packed[rank][at].rows());
       list = room_by_rank<std::decay_t<decltype(own.entries(0))>>(label, counts);
-      if (own.count(here) > 0)
-        std::copy_n(own.entries.data() + own.begin[here], own.count(here), list.entries.data() + list.begin[here]);
+      if (own.count(here_) > 0)
+        std::copy_n(own.entries.data() + own.begin[here_], own.count(here_), list.entries.data() + list.begin[here_]);
       ++at;
     };
+    const auto make_all = [&](const auto&... own) {
+      std::apply([&](auto&... all) { (make_room(own, all), ...); }, unpacked);
+    };
+    std::apply(make_all, own_);
     std::apply(
         [&](EntriesByRank<T>&... all) {
-          (make_room(sent, all), ...);
-          for_each_other(all..., [&](int rank) {
+          const auto unpack_from = [&](int rank) {
             const WordRows to[] = {rows_of(all, rank)...};
             for (std::size_t i = 0; i < sizeof...(T); ++i)
-              unpack_rows(lists[rank][i].bytes, lists[rank][i].count, to[i].width, to[i].words);
-          });
+              unpack_rows(packed[rank][i].bytes, packed[rank][i].count, to[i].width, to[i].words);
+          };
+          for_each_other(here_, unpack_from, all...);
         },
         unpacked);
+    return unpacked;
+  }
+
+ private:
+  int here_;
+  Lists own_;  ///< of which this rank's own are there
+  ReceivedBytes received_;
+};
+
+/// Sends several lists of entries, a tuple that make() returns on each rank, in one message from rank to rank, and in
+/// as few bytes as pack_rows makes of them: ids, places and the like that ascend or lie near one another. A rank's own
+/// stay; the others are let go when they are packed. If make() throws on some ranks, all throw. Collective.
+template <class Make>
+auto send_lists(const Ranks& ranks, const char* label, const Make& make) {
+  using Lists = std::decay_t<decltype(make())>;
+  const int here = ranks.rank();
+  Lists sent;
+  ReceivedBytes received = exchange_pieces(ranks, label, [&] {
+    sent = make();
+    std::vector<PackedPieces> pieces(ranks.size());
+    std::apply(
+        [&](auto&... lists) {
+          for_each_other(
+              here, [&](int rank) { pieces[rank] = pack_lists({rows_of(lists, rank)...}); }, lists...);
+          const auto let_go = [here](auto& list) {
+            if (list.count(here) == 0) list.entries = {};
+          };
+          (let_go(lists), ...);
+        },
+        sent);
+    return pieces;
   });
+  return ReceivedLists<Lists>(here, std::move(sent), std::move(received));
+}
+
+/// Exchanges several lists that are there. Collective.
+template <class... T>
+std::tuple<EntriesByRank<T>...> exchange_lists(const Ranks& ranks, const char* label, EntriesByRank<T>... sent) {
+  const auto received = send_lists(ranks, label, [&] { return std::make_tuple(std::move(sent)...); });
+  std::tuple<EntriesByRank<T>...> unpacked;
+  together(ranks, [&] { unpacked = received.unpack(label); });
   return unpacked;
 }
 
@@ -184,45 +242,59 @@ EntriesByRank<Id> group_by_rank(int ranks, Offset items, const VisitRanks& visit
   return groups;
 }
 
-/// Collects for each rank the entries entry_of(i) of those items i in 0..items-1 whose rank_of(i) it is, ascending.
-/// `members` becomes the items in the order of the entries. Collective.
+/// For each of so many ranks the entries entry_of(i) of those items i in 0..items-1 whose rank_of(i) it is, ascending.
+/// `members` becomes the items in the order of the entries.
+template <class T, class RankOf, class EntryOf>
+EntriesByRank<T> entries_by_rank(int ranks, const char* label, Offset items, const RankOf& rank_of,
+                                 const EntryOf& entry_of, Array<Id, HostMemory>* members = nullptr) {
+  const EntriesByRank<Id> groups =
+      group_by_rank(ranks, items, [&](Id i, const auto& visit) { visit(static_cast<int>(rank_of(i))); });
+  if (members != nullptr) *members = groups.entries;
+  return {tabulated<T>(label, items, [&](Offset k) { return entry_of(groups.entries(k)); }), groups.begin};
+}
+
+/// The same on all ranks, which fail together. Collective.
 template <class T, class RankOf, class EntryOf>
 EntriesByRank<T> collect_by_rank(const Ranks& ranks, const char* label, Offset items, const RankOf& rank_of,
                                  const EntryOf& entry_of, Array<Id, HostMemory>* members = nullptr) {
-  EntriesByRank<T> sent;
-  together(ranks, [&] {
-    const EntriesByRank<Id> groups =
-        group_by_rank(ranks.size(), items, [&](Id i, const auto& visit) { visit(static_cast<int>(rank_of(i))); });
-    sent = {tabulated<T>(label, items, [&](Offset k) { return entry_of(groups.entries(k)); }), groups.begin};
-    if (members != nullptr) *members = groups.entries;
-  });
-  return sent;
+  EntriesByRank<T> collected;
+  together(ranks, [&] { collected = entries_by_rank<T>(ranks.size(), label, items, rank_of, entry_of, members); });
+  return collected;
 }
 
-/// Sends each of some entries, which have their ranks before them, and returns what all have sent here. Collective.
+/// Entries that have their ranks before them, by these.
 template <class T>
-EntriesByRank<T> exchange_each(const Ranks& ranks, const char* label, const std::vector<std::pair<int, T>>& entries) {
-  return exchange_packed(ranks, label,
-                         collect_by_rank<T>(
-                             ranks, label, static_cast<Offset>(entries.size()), [&](Id i) { return entries[i].first; },
-                             [&](Id i) { return entries[i].second; }));
+EntriesByRank<T> entries_by_rank(int ranks, const char* label, const std::vector<std::pair<int, T>>& entries) {
+  return entries_by_rank<T>(
+      ranks, label, static_cast<Offset>(entries.size()), [&](Id i) { return entries[i].first; },
+      [&](Id i) { return entries[i].second; });
+}
+
+/// Rounds of messages: in each step(received) takes what ranks have sent here, nothing in the first, and returns what it
+/// sends, by rank; until nobody sends anything to another. A step may throw: then all ranks do. Collective.
+template <class T, class Step>
+void in_rounds(const Ranks& ranks, const char* label, const Step& step) {
+  EntriesByRank<T> none;
+  none.begin.assign(ranks.size() + 1, 0);
+  auto received = send_lists(ranks, label, [&] { return std::make_tuple(step(none)); });
+  while (received.are_some())
+    received = send_lists(ranks, label, [&] { return std::make_tuple(step(std::get<0>(received.unpack(label)))); });
 }
 
 /// What all ranks have of several lists, on the first one; nothing on the others. Collective.
 template <class... T>
 std::tuple<EntriesByRank<T>...> lists_to_first(const Ranks& ranks, const char* label, const std::vector<T>&... lists) {
-  std::tuple<EntriesByRank<T>...> sent;
-  together(ranks, [&] {
-    const auto for_first = [&](const auto& list) {
-      using Entry = typename std::decay_t<decltype(list)>::value_type;
-      std::vector<Offset> begin(ranks.size() + 1, static_cast<Offset>(list.size()));
-      begin[0] = 0;
-      const Array<Entry, HostMemory> entries(const_cast<Entry*>(list.data()), list.size());  // nobody writes to it
-      return EntriesByRank<Entry>{entries, std::move(begin)};
-    };
-    sent = {for_first(lists)...};
-  });
-  return std::apply([&](auto&... all) { return exchange_lists(ranks, label, std::move(all)...); }, sent);
+  const auto for_first = [&](const auto& list) {
+    using Entry = typename std::decay_t<decltype(list)>::value_type;
+    std::vector<Offset> begin(ranks.size() + 1, static_cast<Offset>(list.size()));
+    begin[0] = 0;
+    const Array<Entry, HostMemory> entries(const_cast<Entry*>(list.data()), list.size());  // nobody writes to it
+    return EntriesByRank<Entry>{entries, std::move(begin)};
+  };
+  const auto received = send_lists(ranks, label, [&] { return std::make_tuple(for_first(lists)...); });
+  std::tuple<EntriesByRank<T>...> all;
+  together(ranks, [&] { all = received.unpack(label); });
+  return all;
 }
 
 /// What all ranks have of one list, likewise. Collective.
@@ -234,21 +306,21 @@ EntriesByRank<T> to_first(const Ranks& ranks, const char* label, const std::vect
 /// What all ranks have of several lists, one rank after the other, on each of them. Collective.
 template <class... T>
 std::tuple<std::vector<T>...> lists_of_all(const Ranks& ranks, const char* label, const std::vector<T>&... lists) {
-  std::tuple<EntriesByRank<T>...> sent;
+  const auto for_each_rank = [&](const auto& list) {
+    using Entry = typename std::decay_t<decltype(list)>::value_type;
+    const auto all =
+        room_by_rank<Entry>(label, std::vector<std::int64_t>(ranks.size(), static_cast<std::int64_t>(list.size())));
+    for (int rank = 0; rank < ranks.size(); ++rank)
+      std::copy(list.begin(), list.end(), all.entries.data() + all.begin[rank]);
+    return all;
+  };
+  const auto received = send_lists(ranks, label, [&] { return std::make_tuple(for_each_rank(lists)...); });
+  std::tuple<std::vector<T>...> all;
   together(ranks, [&] {
-    const auto for_each_rank = [&](const auto& list) {
-      using Entry = typename std::decay_t<decltype(list)>::value_type;
-      const auto all =
-          room_by_rank<Entry>(label, std::vector<std::int64_t>(ranks.size(), static_cast<std::int64_t>(list.size())));
-      for (int rank = 0; rank < ranks.size(); ++rank)
-        std::copy(list.begin(), list.end(), all.entries.data() + all.begin[rank]);
-      return all;
-    };
-    sent = {for_each_rank(lists)...};
+    all = std::apply([](const auto&... some) { return std::make_tuple(vector_of(some.entries)...); },
+                     received.unpack(label));
   });
-  const auto received = std::apply([&](auto&... all) { return exchange_lists(ranks, label, std::move(all)...); }, sent);
-  const auto listed = [](const auto& some) { return vector_of(some.entries); };
-  return std::apply([&](const auto&... all) { return std::make_tuple(listed(all)...); }, received);
+  return all;
 }
 
 /// What the ranks answer to a question about each of the items 0..items-1, by item: what answer_all(questions, answers)
@@ -259,19 +331,21 @@ Array<Answer, HostMemory> ask_for_all(const Ranks& ranks, const char* label, Off
                                       const QuestionOf& question_of, const AnswerAll& answer_all) {
   using Question = std::decay_t<decltype(question_of(Id()))>;
   Array<Id, HostMemory> members;
-  const EntriesByRank<Question> asked =
-      collect_by_rank<Question>(ranks, "GALE::asked", items, rank_of, question_of, &members);
-  const EntriesByRank<Question> questions = exchange_packed(ranks, "GALE::questions", asked);
-  EntriesByRank<Answer> given;
-  together(ranks, [&] {
-    given = room_by_rank<Answer>("GALE::answers", counts_of(questions));
-    answer_all(questions, given.entries);
+  const auto asked = send_lists(ranks, "GALE::questions", [&] {
+    return std::make_tuple(
+        entries_by_rank<Question>(ranks.size(), "GALE::asked", items, rank_of, question_of, &members));
   });
-  const EntriesByRank<Answer> received = exchange_packed(ranks, "GALE::answered", given);
+  const auto answered = send_lists(ranks, "GALE::answers", [&] {
+    const auto [questions] = asked.unpack("GALE::questions");
+    const auto given = room_by_rank<Answer>("GALE::answers", counts_of(questions));
+    answer_all(questions, given.entries);
+    return std::make_tuple(given);
+  });
   Array<Answer, HostMemory> answers;
   together(ranks, [&] {
+    const auto [received] = answered.unpack("GALE::answered");
     answers = allocate<Array<Answer, HostMemory>>(label, items);
-    parallel_for(label, HostExecutionSpace(), items, [&](Offset k) { answers(members(k)) = received.entries(k); });
+    for (Offset k = 0; k < items; ++k) answers(members(k)) = received.entries(k);
   });
   return answers;
 }
