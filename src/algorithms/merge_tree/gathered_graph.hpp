@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <numeric>
 #include <optional>
@@ -179,6 +180,15 @@ class GatheredGraph {
   /// The place of a vertex among them, by ascending id.
   Id place_of(GlobalId id) const { return index_.find(id); }
 
+  /// The keys of `vertices`: they ascend.
+  std::vector<std::uint64_t> keys() const {
+    const std::uint64_t* const by_place = order_->keys();
+    auto keys = unwritten<std::uint64_t>(place_of_.size());
+    parallel_for("GALE::gathered_keys", HostExecutionSpace(), keys.size(),
+                 [&](Offset i) { keys[i] = by_place[place_of_[i]]; });
+    return keys;
+  }
+
   /// The places of extrema as a side comes to them, by their places among vertices; no_id for others.
   std::vector<Id> places_of_extrema(Side side) const {
     std::vector<Id> places(vertices.size(), no_id);
@@ -246,7 +256,7 @@ class GatheredGraph {
     parallel_for("GALE::gathered_places", HostExecutionSpace(), count,
                  [&](Offset place) { place_of_[by_id.places(place)] = static_cast<Id>(place); });
     mesh_ = excerpt_mesh<4>(by_id.ids, GlobalIds(), CellCorners<4, Id, HostMemory>());
-    order_ = excerpt_order(*mesh_, [&](Id v) { return vertices[by_id.places(v)].value; });
+    order_ = VertexOrder::of_places(*mesh_, vector_of(by_id.places));
   }
 
   const Ranks& ranks_;

@@ -9,7 +9,6 @@
 #include <gale/algorithms/merge_tree/tree_maker.hpp>
 #include <gale/base/memory.hpp>
 #include <gale/base/parallel.hpp>
-#include <gale/base/sort.hpp>
 
 namespace gale::detail {
 
@@ -47,10 +46,7 @@ class VertexClimbs {
                const std::array<Mirrored<Id>, 2>& places, const TreeMaker<HostExecutionSpace>& maker) {
     const Mesh& mesh = order.mesh();
     const KeysHere<Memory> here(order, gathered.vertices);
-    // Keys of an excerpt's order ascend with its vertices: those of places are what trees compare.
-    const std::uint64_t* const small = gathered.order().keys();
-    std::vector<std::uint64_t> sorted(small, small + gathered.mesh().vertices());
-    parallel_sort("GALE::sort_gathered_keys", sorted.begin(), sorted.end());
+    const std::vector<std::uint64_t> sorted = gathered.keys();
     const auto in_order = in_memory<Memory>(sorted);
     for (const Side side : {below, above}) {
       if (!maker.uses(side)) continue;
