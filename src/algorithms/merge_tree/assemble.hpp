@@ -36,10 +36,18 @@ template <class ArcOf>
 std::vector<Id> sizes_of(std::size_t arcs, Offset vertices, const ArcOf& arc_of) {
   auto sizes = of_parts("GALE::count_on_arcs", vertices, [&](Offset begin, Offset end) {
     std::vector<Id> mine(arcs, 0);
-    for (Offset i = begin; i < end; ++i) {
+    Id last = no_id, run = 0;  // neighbours are mostly on one arc: to add one by one would wait for what was added
+    const auto add_run = [&] {
+      if (last != no_id) mine[last] += run;
+    };
+    for (Offset i = begin; i < end; ++i, ++run) {
       const Id arc = arc_of(i);
-      if (arc != no_id) ++mine[arc];
+      if (arc == last) continue;
+      add_run();
+      last = arc;
+      run = 0;
     }
+    add_run();
     return mine;
   });
   parallel_for("GALE::add_on_arcs", HostExecutionSpace(), static_cast<Offset>(arcs), [&](Offset arc) {

@@ -14,6 +14,7 @@
 #include <gale/algorithms/excerpt/gathering.hpp>
 #include <gale/algorithms/merge_tree/trees_on_ranks.hpp>
 #include <gale/algorithms/morse_smale/paths_on_ranks.hpp>
+#include <gale/base/hash_table.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/sort.hpp>
 #include <gale/mesh/exchange/global_index.hpp>
@@ -47,36 +48,51 @@ struct JoiningVertex {
   }
 };
 
-/// Keeps the meetings that join paths to extrema which lower ones of this rank (as the side comes to them) don't: what
-/// joins extrema that are joined already makes no node, wherever the others are.
-inline void keep_joining(std::vector<JoiningVertex>& meetings) {
-  parallel_sort("GALE::sort_meetings", meetings.begin(), meetings.end());
-  const Offset count = static_cast<Offset>(meetings.size());
-  const auto extremum_of = [&](Offset i) { return meetings[i].extremum; };
-  const GlobalIndex extrema(distinct_ids(tabulated<GlobalId>("GALE::met_extrema", count, extremum_of)).ids);
-  const auto place_of =
-      tabulated<Id>("GALE::met_extrema", count, [&](Offset i) { return extrema.find(extremum_of(i)); });
-  std::vector<Id> joined(extrema.count());
-  std::iota(joined.begin(), joined.end(), Id(0));
-  const auto find = [&](Id extremum) {
-    while (joined[extremum] != extremum) extremum = joined[extremum] = joined[joined[extremum]];
-    return extremum;
-  };
-  std::vector<JoiningVertex> kept;
-  for (std::size_t i = 0, next = 0; i < meetings.size(); i = next) {
-    const std::size_t before = kept.size();
-    kept.push_back(meetings[i]);
-    const Id all = find(place_of(i));
-    for (next = i + 1; next < meetings.size() && meetings[next].vertex == meetings[i].vertex; ++next) {
-      const Id other = find(place_of(next));
-      if (other == all) continue;
-      joined[other] = all;
-      kept.push_back(meetings[next]);
+/// The extrema at which paths of this rank end, joined where these meet.
+class JoinedExtrema {
+ public:
+  /// Keeps the meetings that join paths to extrema which lower ones of this rank (as the side comes to them) don't:
+  /// what joins extrema that are joined already makes no node, wherever the others are.
+  explicit JoinedExtrema(std::vector<JoiningVertex>& meetings) {
+    parallel_sort("GALE::sort_meetings", meetings.begin(), meetings.end());
+    const Offset count = static_cast<Offset>(meetings.size());
+    const auto extremum_of = [&](Offset i) { return meetings[i].extremum; };
+    extrema_ = GlobalIndex(distinct_ids(tabulated<GlobalId>("GALE::met_extrema", count, extremum_of)).ids);
+    const auto place_of =
+        tabulated<Id>("GALE::met_extrema", count, [&](Offset i) { return extrema_.find(extremum_of(i)); });
+    joined_.resize(extrema_.count());
+    std::iota(joined_.begin(), joined_.end(), Id(0));
+    std::vector<JoiningVertex> kept;
+    for (std::size_t i = 0, next = 0; i < meetings.size(); i = next) {
+      const std::size_t before = kept.size();
+      kept.push_back(meetings[i]);
+      const Id all = find(place_of(i));
+      for (next = i + 1; next < meetings.size() && meetings[next].vertex == meetings[i].vertex; ++next) {
+        const Id other = find(place_of(next));
+        if (other == all) continue;
+        joined_[other] = all;
+        kept.push_back(meetings[next]);
+      }
+      if (kept.size() == before + 1) kept.pop_back();
     }
-    if (kept.size() == before + 1) kept.pop_back();
+    meetings = std::move(kept);
   }
-  meetings = std::move(kept);
-}
+
+  /// The extremum that stands for all that this one is joined with.
+  GlobalId of(GlobalId extremum) {
+    const Id place = extrema_.find(extremum);
+    return place == no_id ? extremum : extrema_[find(place)];
+  }
+
+ private:
+  Id find(Id place) {
+    while (joined_[place] != place) place = joined_[place] = joined_[joined_[place]];
+    return place;
+  }
+
+  GlobalIndex extrema_;
+  std::vector<Id> joined_;  ///< for each a step to the one that stands for it
+};
 
 /// The paths of one side as this rank has them.
 struct SideOnRanks {
@@ -212,11 +228,16 @@ class GatheredGraph {
     const auto id_of = [&](Id vertex) { return mesh.vertex_id(input[vertex]); };
     std::vector<Id> all;
     for (const Side side : {below, above}) {
-      all.insert(all.end(), sides[side]->extrema.begin(), sides[side]->extrema.end());
-      for (const JoiningVertex& meeting : joining(order, *sides[side], side)) {
+      if (!sides[side]->paths) continue;
+      const SideOnRanks& other = *sides[opposite(side)];
+      const auto [meetings, lasts] =
+          joining(order, *sides[side], side, other.paths ? std::vector<Id>() : other.extrema);
+      for (const JoiningVertex& meeting : meetings) {
         told[side].push_back({id_of(meeting.vertex), meeting.extremum});
         all.push_back(meeting.vertex);
       }
+      all.insert(all.end(), sides[side]->extrema.begin(), sides[side]->extrema.end());
+      all.insert(all.end(), lasts.begin(), lasts.end());
     }
     sort_distinct("GALE::sort_told", all);
     const std::vector<std::uint64_t> values = order.value_keys_of(all);
@@ -227,23 +248,42 @@ class GatheredGraph {
     });
   }
 
-  /// The meetings of a side that join what this rank's others don't.
-  static std::vector<JoiningVertex> joining(const VertexOrder& order, const SideOnRanks& paths, Side side) {
-    const Offset count = static_cast<Offset>(paths.meetings.size());
-    std::vector<Id> at(count), others(count);
+  /// What is told of a side.
+  struct Joining {
+    std::vector<JoiningVertex> meetings;  ///< that join what this rank's others don't
+    std::vector<Id> lasts;                ///< the last of the others (below) of each of its extrema that it joins
+  };
+
+  /// `others` are extrema of the other side where that isn't followed: a tree needs the last in each component.
+  static Joining joining(const VertexOrder& order, const SideOnRanks& paths, Side side, const std::vector<Id>& others) {
+    const Offset met = static_cast<Offset>(paths.meetings.size()), count = met + static_cast<Offset>(others.size());
+    std::vector<Id> at(count), from(count);
     parallel_for("GALE::meetings", HostExecutionSpace(), count, [&](Offset i) {
-      at[i] = paths.meetings[i].vertex;
-      others[i] = paths.meetings[i].other;
+      at[i] = i < met ? paths.meetings[i].vertex : others[i - met];
+      from[i] = i < met ? paths.meetings[i].other : others[i - met];
     });
     const std::vector<std::uint64_t> keys = order.keys_of(at);
     const SideKeys of_side(keys.data(), side);
-    const std::vector<GlobalId> extrema = paths.ends_of(others);
-    std::vector<JoiningVertex> meetings(count);
-    parallel_for("GALE::meetings", HostExecutionSpace(), count, [&](Offset i) {
-      meetings[i] = {of_side[static_cast<Id>(i)], at[i], extrema[i]};
+    const std::vector<GlobalId> extrema = paths.ends_of(from);
+    Joining told;
+    told.meetings.resize(met);
+    parallel_for("GALE::meetings", HostExecutionSpace(), met, [&](Offset i) {
+      told.meetings[i] = {of_side[static_cast<Id>(i)], at[i], extrema[i]};
     });
-    keep_joining(meetings);
-    return meetings;
+    JoinedExtrema joined(told.meetings);
+    HashTable<Id> number;     // of the extremum that stands for others
+    std::vector<Id> last_of;  // by these numbers
+    for (Id i = static_cast<Id>(met); i < count; ++i) {
+      const auto [of_all, is_new] = number.insert(static_cast<std::uint64_t>(joined.of(extrema[i])));
+      if (is_new) {
+        of_all = static_cast<Id>(last_of.size());
+        last_of.push_back(i);
+      } else if (of_side(last_of[of_all], i)) {
+        last_of[of_all] = i;
+      }
+    }
+    for (const Id last : last_of) told.lasts.push_back(at[last]);
+    return told;
   }
 
   void finish() {
