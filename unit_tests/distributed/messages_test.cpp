@@ -64,8 +64,8 @@ TEST(Messages, short_and_long_ones_come_as_they_were_sent) {
         counts.push_back(count_of(ranks.rank(), to));
         others.push_back((ranks.rank() + to) % 2);
       }
-      const auto [received, few] = detail::exchange_lists(ranks, "test", numbers_for_all(ranks, counts),
-                                                          numbers_for_all(ranks, others));
+      const auto [received, few] =
+          detail::exchange_lists(ranks, "test", numbers_for_all(ranks, counts), numbers_for_all(ranks, others));
       expect_numbers(ranks, received, count_of);
       expect_numbers(ranks, few, [](int from, int to) { return (from + to) % 2; });
     }

@@ -270,8 +270,8 @@ EntriesByRank<T> entries_by_rank(int ranks, const char* label, const std::vector
       [&](Id i) { return entries[i].second; });
 }
 
-/// Rounds of messages: in each step(received) takes what ranks have sent here, nothing in the first, and returns what it
-/// sends, by rank; until nobody sends anything to another. A step may throw: then all ranks do. Collective.
+/// Rounds of messages: in each step(received) takes what ranks have sent here, nothing in the first, and returns what
+/// it sends, by rank; until nobody sends anything to another. A step may throw: then all ranks do. Collective.
 template <class T, class Step>
 void in_rounds(const Ranks& ranks, const char* label, const Step& step) {
   EntriesByRank<T> none;
