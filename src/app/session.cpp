@@ -218,7 +218,7 @@ FieldOnMesh Session::whole(const FieldOnMesh& on) const {
   if (!Launch::are_several()) return on;
   const detail::WholeMesh gathered(on.order, "the mesh of a picture");
   const Mesh& mesh = gathered.mesh();
-  return {outputs::dataset_of(mesh, on.mesh, on.dataset), mesh, outputs::array_of(mesh, on.mesh, on.field),
+  return {outputs::dataset_of(mesh, on.mesh, on.dataset), mesh, outputs::array_of(mesh, on.mesh, on.field, on.values),
           gathered.order()};
 }
 

@@ -78,10 +78,11 @@ class GALE_EXPORT Ranks {
                               const std::vector<std::int64_t>& receive_begin) const = 0;
 
   /// Sends each rank r the `size` bytes from `from + r * size` on, and receives as many from each likewise. For little:
-  /// all of it takes one step. sent() doesn't count them.
+  /// all of it takes one step. sent() counts of them what note_sent() is told.
   virtual void exchange_blocks(const char* from, char* to, std::int64_t size) const = 0;
 
-  /// What this rank has sent through exchange_bytes so far, and how long it has waited in all these functions.
+  /// What this rank has sent so far, by exchange_bytes or as note_sent() was told, and how long it has waited in all
+  /// these functions.
   virtual const SentMessages& sent() const = 0;
 
   /// Adds to what sent() says was gathered, and was sent. Not collective.

@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include <gale/algorithms/persistence/columns_on_ranks.hpp>
 #include <gale/base/atomic.hpp>

@@ -37,7 +37,7 @@ class EdgeChain {
     put(key_a > key_b ? Entry{key_a, {a, b}} : Entry{key_b, {b, a}});
   }
 
-  /// Adds another sum, which has fallen.
+  /// Adds another sum, of edges with their higher ends first.
   void add(const std::vector<LowerEdge>& edges) {
     for (const LowerEdge& edge : edges) put(edge.high, edge.low);
   }
@@ -85,7 +85,8 @@ class EdgeChain {
   /// How many edges it has, each as often as it is there.
   std::size_t size() const { return heap_.size(); }
 
-  /// Takes about half of it out, to fall as a sum of its own: edges whose higher ends lie together, all of each star.
+  /// Takes about half of it out, to fall as a sum of its own: edges whose higher ends lie together, all of each star;
+  /// or all of it, where half is one star's.
   std::vector<LowerEdge> split() {
     std::vector<Id> highs;
     highs.reserve(heap_.size());

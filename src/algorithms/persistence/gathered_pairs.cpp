@@ -82,7 +82,6 @@ class PairsOnRanks {
       try {
         own_ = filtration_of(gradient_, threads_);
         own = simplices_to_send(gradient_, own_);
-        highest = highest_to_send(gradient_);
       } catch (...) {
         failure = std::current_exception();  // of which the others hear when they have followed paths
       }
@@ -91,6 +90,7 @@ class PairsOnRanks {
     std::vector<std::int64_t> bytes(ranks_.size(), 0);
     together(ranks_, [&] {
       if (failure) std::rethrow_exception(failure);
+      highest = highest_to_send(gradient_);  // by a kernel: not beside others
       for (const auto& some : own) bytes[0] += static_cast<std::int64_t>(some.size() * sizeof(SentSimplex));
       bytes[0] += static_cast<std::int64_t>((ends.of_edges.size() + ends.of_facets.size()) * sizeof(SentEnds));
     });

@@ -1,5 +1,8 @@
 #include <algorithm>
 #include <cstring>
+#include <numeric>
+#include <string>
+#include <vector>
 
 #include <gale/mesh/exchange/messages.hpp>
 
@@ -39,10 +42,8 @@ ReceivedBytes exchange_pieces(const Ranks& ranks, const char* label,
     std::memcpy(&sent[rank * block], &mine, sizeof(mine));
     if (mine.bytes <= 0 || mine.bytes > block - head) continue;
     write_pieces(pieces[rank], &sent[rank * block + head]);
-    if (greatest <= block - head) ranks.note_sent(1, mine.bytes);
   }
-  const Array<char, HostMemory> blocks(Kokkos::view_alloc(std::string(label), Kokkos::WithoutInitializing),
-                                       size * block);
+  const auto blocks = allocate<Array<char, HostMemory>>(label, size * block);
   ranks.exchange_blocks(sent.data(), blocks.data(), block);
 
   ReceivedBytes received{blocks, {}, {}};
@@ -56,7 +57,11 @@ ReceivedBytes exchange_pieces(const Ranks& ranks, const char* label,
     has_one_failed = has_one_failed || theirs.greatest < 0;
   }
   if (has_one_failed) fail_together(ranks, outcome.has_failed, outcome.failure);
-  if (received.greatest <= block - head) return received;
+  if (received.greatest <= block - head) {
+    ranks.note_sent(std::count_if(counts.begin(), counts.end(), [](std::int64_t count) { return count > 0; }),
+                    std::accumulate(counts.begin(), counts.end(), std::int64_t(0)));
+    return received;
+  }
 
   EntriesByRank<char> packed, there;
   together(ranks, [&] {

@@ -253,7 +253,7 @@ EntriesByRank<T> entries_by_rank(int ranks, const char* label, Offset items, con
   return {tabulated<T>(label, items, [&](Offset k) { return entry_of(groups.entries(k)); }), groups.begin};
 }
 
-/// The same on all ranks, which fail together. Collective.
+/// Collects entries by rank on all ranks, which fail together. Collective.
 template <class T, class RankOf, class EntryOf>
 EntriesByRank<T> collect_by_rank(const Ranks& ranks, const char* label, Offset items, const RankOf& rank_of,
                                  const EntryOf& entry_of, Array<Id, HostMemory>* members = nullptr) {
@@ -270,8 +270,9 @@ EntriesByRank<T> entries_by_rank(int ranks, const char* label, const std::vector
       [&](Id i) { return entries[i].second; });
 }
 
-/// Rounds of messages: in each step(received) takes what ranks have sent here, nothing in the first, and returns what
-/// it sends, by rank; until nobody sends anything to another. A step may throw: then all ranks do. Collective.
+/// Rounds of messages: in each step(received) takes what others have sent here, nothing in the first, and returns what
+/// it sends to others, by rank; until nobody sends anything. A rank sends itself nothing. A step may throw: then all
+/// ranks do. Collective.
 template <class T, class Step>
 void in_rounds(const Ranks& ranks, const char* label, const Step& step) {
   EntriesByRank<T> none;
@@ -306,15 +307,23 @@ EntriesByRank<T> to_first(const Ranks& ranks, const char* label, const std::vect
 /// What all ranks have of several lists, one rank after the other, on each of them. Collective.
 template <class... T>
 std::tuple<std::vector<T>...> lists_of_all(const Ranks& ranks, const char* label, const std::vector<T>&... lists) {
-  const auto for_each_rank = [&](const auto& list) {
+  const int here = ranks.rank();
+  const auto own_of = [&](const auto& list) {
     using Entry = typename std::decay_t<decltype(list)>::value_type;
-    const auto all =
-        room_by_rank<Entry>(label, std::vector<std::int64_t>(ranks.size(), static_cast<std::int64_t>(list.size())));
-    for (int rank = 0; rank < ranks.size(); ++rank)
-      std::copy(list.begin(), list.end(), all.entries.data() + all.begin[rank]);
-    return all;
+    std::vector<Offset> begin(ranks.size() + 1, 0);
+    std::fill(begin.begin() + here + 1, begin.end(), static_cast<Offset>(list.size()));
+    const Array<Entry, HostMemory> entries(const_cast<Entry*>(list.data()), list.size());  // nobody writes to it
+    return EntriesByRank<Entry>{entries, std::move(begin)};
   };
-  const auto received = send_lists(ranks, label, [&] { return std::make_tuple(for_each_rank(lists)...); });
+  const auto own = std::make_tuple(own_of(lists)...);
+  ReceivedBytes bytes = exchange_pieces(ranks, label, [&] {
+    const PackedPieces packed =
+        std::apply([&](const auto&... some) { return pack_lists({rows_of(some, here)...}); }, own);
+    std::vector<PackedPieces> pieces(ranks.size(), packed);
+    pieces[here].clear();
+    return pieces;
+  });
+  const ReceivedLists<std::tuple<EntriesByRank<T>...>> received(here, own, std::move(bytes));
   std::tuple<std::vector<T>...> all;
   together(ranks, [&] {
     all = std::apply([](const auto&... some) { return std::make_tuple(vector_of(some.entries)...); },
@@ -343,9 +352,9 @@ Array<Answer, HostMemory> ask_for_all(const Ranks& ranks, const char* label, Off
   });
   Array<Answer, HostMemory> answers;
   together(ranks, [&] {
-    const auto [received] = answered.unpack("GALE::answered");
+    const auto received = std::get<0>(answered.unpack("GALE::answered"));
     answers = allocate<Array<Answer, HostMemory>>(label, items);
-    for (Offset k = 0; k < items; ++k) answers(members(k)) = received.entries(k);
+    parallel_for(label, HostExecutionSpace(), items, [&](Offset k) { answers(members(k)) = received.entries(k); });
   });
   return answers;
 }
