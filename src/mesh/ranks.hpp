@@ -85,8 +85,10 @@ class GALE_EXPORT Ranks {
   /// these functions.
   virtual const SentMessages& sent() const = 0;
 
-  /// Adds to what sent() says was gathered, and was sent. Not collective.
+  /// Adds to what sent() says was gathered. Not collective.
   virtual void note_gathered(std::int64_t) const {}
+
+  /// Adds so many messages, and bytes of all together, to what sent() says. Not collective.
   virtual void note_sent(std::int64_t /*messages*/, std::int64_t /*bytes*/) const {}
 };
 

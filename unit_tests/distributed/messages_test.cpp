@@ -25,7 +25,7 @@ std::int64_t number(int from, int to, std::int64_t i) {
   return static_cast<std::int64_t>(random() >> 2);
 }
 
-/// So many such numbers from this rank to each.
+/// Numbers from this rank to each, so many.
 EntriesByRank<std::int64_t> numbers_for_all(const Ranks& ranks, const std::vector<std::int64_t>& counts) {
   const auto numbers = detail::room_by_rank<std::int64_t>("test", counts);
   for (int to = 0; to < ranks.size(); ++to) {
@@ -48,7 +48,7 @@ void expect_numbers(const Ranks& ranks, const EntriesByRank<std::int64_t>& recei
 
 TEST(Messages, short_and_long_ones_come_as_they_were_sent) {
   const Communicator ranks(MPI_COMM_WORLD, 1000);
-  // None, some that fit into a block on all ranks, long ones, a long one between two ranks alone, and just around the
+  // Messages without a number, short ones on all ranks, long ones, a long one between two ranks alone, and around the
   // length that fits.
   std::vector<std::int64_t> longest{0, 3, 20000};
   for (std::int64_t count = 80; count < 120; ++count) longest.push_back(count);
