@@ -17,7 +17,7 @@ namespace gale::test {
 
 namespace {
 
-DiscreteGradient gradient_of(const Mesh& mesh, const std::vector<double>& field) {
+DiscreteGradient gradient_by_structure(const Mesh& mesh, const std::vector<double>& field) {
   const auto structure = structure_kinds().front().make(mesh, discrete_gradient_relations);
   return find_discrete_gradient(*structure, VertexOrder(mesh, field.data(), field.size()));
 }
@@ -57,7 +57,7 @@ TEST_P(PersistencePairsOf, every_mesh_are_those_of_brute_force_whatever_segments
   const auto fields = fields_on(input());
   for (std::size_t i = 0; i < fields.size(); ++i) {
     SCOPED_TRACE(fields[i].name);
-    const DiscreteGradient gradient = gradient_of(mesh, fields[i].values);
+    const DiscreteGradient gradient = gradient_by_structure(mesh, fields[i].values);
     const PersistencePairs found = find_persistence_pairs(gradient, with_threads(i % 2 == 0 ? 1 : 8));
     expect_partition(gradient.critical(), found);
     const auto [expected, is_new] = known.try_emplace({mesh_name(), fields[i].name});
@@ -76,7 +76,7 @@ TEST_P(PersistencePairsWithoutGradient, begin_and_end_at_the_same_vertices) {
   const Mesh mesh = encode(input, 50);
   for (const unsigned seed : {0, 1, 2}) {
     const auto field = seed == 0 ? fields_on(input)[0].values : random_field(input, seed);
-    const DiscreteGradient gradient = gradient_of(mesh, field);
+    const DiscreteGradient gradient = gradient_by_structure(mesh, field);
     const NamedPairs found = named_pairs(gradient, find_persistence_pairs(gradient));
     EXPECT_EQ(vertex_pairs(field, found), brute_force_vertex_pairs(input, field)) << "seed " << seed;
   }
@@ -89,7 +89,7 @@ TEST(PersistencePairs, of_noise_are_the_same_with_any_number_of_threads_and_from
   const InputMesh input = holed_grid(20);
   const Mesh mesh = encode(input, 100);
   const auto field = random_field(input, 7);
-  const DiscreteGradient gradient = gradient_of(mesh, field);
+  const DiscreteGradient gradient = gradient_by_structure(mesh, field);
   const PersistencePairs one = find_persistence_pairs(gradient, with_threads(1));
   expect_partition(gradient.critical(), one);
   EXPECT_GT(one.essential[1].size(), 0u);
@@ -115,7 +115,8 @@ TEST(PersistencePairs, of_forked_paths_are_the_same_from_cells) {
       const auto structure = structure_kinds().front().make(mesh, discrete_gradient_from_cells_relations);
       const auto gradient =
           find_discrete_gradient_from_cells(*structure, VertexOrder(mesh, field.values.data(), field.values.size()));
-      EXPECT_EQ(find_persistence_pairs(gradient).pairs, find_persistence_pairs(gradient_of(mesh, field.values)).pairs);
+      EXPECT_EQ(find_persistence_pairs(gradient).pairs,
+                find_persistence_pairs(gradient_by_structure(mesh, field.values)).pairs);
     }
   }
 }
@@ -128,7 +129,7 @@ TEST(PersistencePairs, of_a_known_grid) {
   const Mesh mesh(Tetrahedra<Id, HostMemory>(dataset.tetrahedra),
                   octree_segmentation<float, HostMemory>(Points<float, HostMemory>(points), 100));
   const std::vector<double> field(values.begin(), values.end());
-  const PersistencePairs found = find_persistence_pairs(gradient_of(mesh, field));
+  const PersistencePairs found = find_persistence_pairs(gradient_by_structure(mesh, field));
   EXPECT_EQ(found.pairs[0].size(), 133u);
   EXPECT_EQ(found.pairs[1].size(), 223u);
   EXPECT_EQ(found.pairs[2].size(), 40u);

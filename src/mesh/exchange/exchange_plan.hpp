@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <numeric>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include <gale/base/memory.hpp>
@@ -176,8 +178,7 @@ template <class Source, class Key, class Place>
 ExchangePlan::ExchangePlan(const Ranks& ranks, const Run& run, const Array<const Id, HostMemory>& slots,
                            const Source& source, const Key& key, const Place& place)
     : run_(run) {
-  Array<Id, HostMemory> others;
-  together(ranks, [&] {
+  const auto asked = send_lists(ranks, "GALE::wanted_keys", [&] {
     const int here = ranks.rank();
     const EntriesByRank<Id> groups =
         group_by_rank(2, slots.extent(0), [&](Id i, const auto& visit) { visit(source(i) != here); });
@@ -185,16 +186,17 @@ ExchangePlan::ExchangePlan(const Ranks& ranks, const Run& run, const Array<const
     kept_slots_ = tabulated<Id>("GALE::kept_slots", kept, [&](Offset k) { return slots(groups.entries(k)); });
     kept_places_ =
         tabulated<Id>("GALE::kept_places", kept, [&](Offset k) { return place(GlobalId(key(groups.entries(k)))); });
-    others = tabulated<Id>("GALE::wanted_slots", groups.count(1), [&](Offset i) { return groups.entries(kept + i); });
+    const auto other = [&](Offset i) { return groups.entries(kept + i); };
+    auto keys = entries_by_rank<GlobalId>(
+        ranks.size(), "GALE::wanted_keys", groups.count(1), [&](Id i) { return source(other(i)); },
+        [&](Id i) { return GlobalId(key(other(i))); }, &slots_);
+    parallel_for("GALE::wanted_slots", HostExecutionSpace(), slots_.extent(0),
+                 [&](Offset i) { slots_(i) = slots(other(slots_(i))); });
+    taken_counts_ = counts_of(keys);
+    return std::make_tuple(std::move(keys));
   });
-  const auto asked = collect_by_rank<GlobalId>(
-      ranks, "GALE::wanted_values", others.extent(0), [&](Id i) { return source(others(i)); },
-      [&](Id i) { return GlobalId(key(others(i))); }, &slots_);
-  parallel_for("GALE::wanted_slots", HostExecutionSpace(), slots_.extent(0),
-               [&](Offset i) { slots_(i) = slots(others(slots_(i))); });
-  taken_counts_ = counts_of(asked);
-  const auto keys = exchange_packed(ranks, "GALE::wanted_keys", asked);
   together(ranks, [&] {
+    const auto keys = std::get<0>(asked.unpack("GALE::given_keys"));
     given_ = room_by_rank<Id>("GALE::given_places", counts_of(keys));
     parallel_for("GALE::given_places", HostExecutionSpace(), keys.count(),
                  [&](Offset i) { given_.entries(i) = place(keys.entries(i)); });
