@@ -1,14 +1,13 @@
 #include <algorithm>
-#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include <gale/base/error.hpp>
 #include <gale/base/mirrored.hpp>
 #include <gale/distributed/distributed_mesh.hpp>
+#include <gale/distributed/sharing/layer_ghosts.hpp>
 #include <gale/distributed/sharing/local_grid.hpp>
 #include <gale/distributed/sharing/local_mesh.hpp>
 #include <gale/distributed/sharing/local_vertices.hpp>
@@ -156,7 +155,6 @@ class DistributedMesh::Sharing final : public Exchange {
   Mesh take(const MeshPart<Index>& part, const PartitionOptions& options, const std::shared_ptr<const Exchange>& self);
   detail::ExchangePlan::Run share(const detail::VertexDirectory& directory,
                                   Array<detail::VertexEntry, HostMemory> of_owned);
-  detail::ExchangePlan::Run share_layers(Offset layer);
   detail::OwnAndGhosts share_points(const HostPoints& given, const detail::ExchangePlan::Run& run) const;
 
   Communicator ranks_;
@@ -235,41 +233,6 @@ detail::ExchangePlan::Run DistributedMesh::Sharing::share(const detail::VertexDi
         ranks_, {}, ghosts, [&](Id i) { return ghost_owners_(i); }, [&](Id i) { return held_.ghosts()(i); },
         [&](GlobalId id) { return held_.find(id); });
   }
-  return run;
-}
-
-/// Plans likewise, without a message, where the `layer` vertices before those that a rank owns and the `layer` after
-/// them are its ghosts.
-detail::ExchangePlan::Run DistributedMesh::Sharing::share_layers(Offset layer) {
-  const int here = ranks_.rank();
-  const detail::IdInterval& own = given_->of(here);
-  detail::ExchangePlan::Run run;
-  if (!own.is_empty()) run = {held_.owned(0), 0, held_.owned_count()};
-  const auto ghosts_of = [&](int rank) -> std::array<detail::IdInterval, 2> {
-    const auto [begin, end] = given_->of(rank);
-    if (begin >= end) return {};
-    return {{{begin - layer, begin}, {end, end + layer}}};
-  };
-  detail::together(ranks_, [&] {
-    std::vector<Interval> given(ranks_.size()), taken(ranks_.size());
-    ghost_owners_ = allocate<Array<int, HostMemory>>("GALE::ghost_owners", held_.ghost_count());
-    for (int rank = 0; rank < ranks_.size(); ++rank) {
-      for (const detail::IdInterval& ghosts : ghosts_of(here)) {
-        const detail::IdInterval some = ghosts.common(given_->of(rank));
-        if (some.is_empty()) continue;
-        const Id first = held_.find(some.begin);
-        taken[rank] = {first, static_cast<Id>(first + (some.end - some.begin))};
-        std::fill_n(&ghost_owners_(held_.ghost_number(first)), taken[rank].size(), rank);
-      }
-      for (const detail::IdInterval& ghosts : ghosts_of(rank)) {
-        const detail::IdInterval some = ghosts.common(own);
-        if (!some.is_empty())
-          given[rank] = {static_cast<Id>(some.begin - own.begin), static_cast<Id>(some.end - own.begin)};
-      }
-    }
-    from_givers_ = detail::ExchangePlan::of_intervals(run, given, taken);
-    from_owners_ = from_givers_.between_slots();
-  });
   return run;
 }
 
@@ -377,8 +340,18 @@ Mesh DistributedMesh::Sharing::make(const GridLayers& part, const PartitionOptio
     held_ = detail::LocalVertices(detail::OwnedIds(local.owned_ids[ranks_.rank()]), local.ghosts);
     places_ = detail::CellPlaces({local.grid->cells(), {}, {}, local.first_cell}, {});
   });
-  const auto run =
-      local.whole_layer > 0 ? share_layers(local.whole_layer) : share(detail::VertexDirectory(ranks_, *given_), {});
+  detail::ExchangePlan::Run run;
+  if (local.whole_layer > 0) {
+    detail::together(ranks_, [&] {
+      const detail::LayerGhosts ghosts(ranks_.rank(), *given_, held_, local.whole_layer);
+      ghost_owners_ = ghosts.owners;
+      from_givers_ = ghosts.from_owners;
+      from_owners_ = from_givers_.between_slots();
+      run = from_givers_.run();
+    });
+  } else {
+    run = share(detail::VertexDirectory(ranks_, *given_), {});
+  }
   if (ranks_.size() == 1) from_givers_ = detail::ExchangePlan::of_one_rank(given_vertices_);
   std::int64_t with_points[] = {part.positions.count() == given_vertices_, part.positions.count() == 0};
   ranks_.sum(with_points, 2);

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <numeric>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -12,6 +11,7 @@
 
 #include <gale/algorithms/excerpt/excerpt_mesh.hpp>
 #include <gale/algorithms/excerpt/gathering.hpp>
+#include <gale/algorithms/merge_tree/joined_extrema.hpp>
 #include <gale/algorithms/merge_tree/trees_on_ranks.hpp>
 #include <gale/algorithms/morse_smale/paths_on_ranks.hpp>
 #include <gale/base/hash_table.hpp>
@@ -35,63 +35,6 @@ struct TreeVertex {
 /// A vertex and an extremum of one side, of which a path ends there.
 struct TreeMeeting {
   GlobalId vertex, extremum;
-};
-
-/// A vertex of this rank, with its key as a side sees it, and an extremum of which a path ends there.
-struct JoiningVertex {
-  std::uint64_t key;
-  Id vertex;
-  GlobalId extremum;
-
-  bool operator<(const JoiningVertex& other) const {
-    return key != other.key ? key < other.key : extremum < other.extremum;
-  }
-};
-
-/// The extrema at which paths of this rank end, joined where these meet.
-class JoinedExtrema {
- public:
-  /// Keeps the meetings that join paths to extrema which lower ones of this rank (as the side comes to them) don't:
-  /// what joins extrema that are joined already makes no node, wherever the others are.
-  explicit JoinedExtrema(std::vector<JoiningVertex>& meetings) {
-    parallel_sort("GALE::sort_meetings", meetings.begin(), meetings.end());
-    const Offset count = static_cast<Offset>(meetings.size());
-    const auto extremum_of = [&](Offset i) { return meetings[i].extremum; };
-    extrema_ = GlobalIndex(distinct_ids(tabulated<GlobalId>("GALE::met_extrema", count, extremum_of)).ids);
-    const auto place_of =
-        tabulated<Id>("GALE::met_extrema", count, [&](Offset i) { return extrema_.find(extremum_of(i)); });
-    joined_.resize(extrema_.count());
-    std::iota(joined_.begin(), joined_.end(), Id(0));
-    std::vector<JoiningVertex> kept;
-    for (std::size_t i = 0, next = 0; i < meetings.size(); i = next) {
-      const std::size_t before = kept.size();
-      kept.push_back(meetings[i]);
-      const Id all = find(place_of(i));
-      for (next = i + 1; next < meetings.size() && meetings[next].vertex == meetings[i].vertex; ++next) {
-        const Id other = find(place_of(next));
-        if (other == all) continue;
-        joined_[other] = all;
-        kept.push_back(meetings[next]);
-      }
-      if (kept.size() == before + 1) kept.pop_back();
-    }
-    meetings = std::move(kept);
-  }
-
-  /// The extremum that stands for all that this one is joined with.
-  GlobalId of(GlobalId extremum) {
-    const Id place = extrema_.find(extremum);
-    return place == no_id ? extremum : extrema_[find(place)];
-  }
-
- private:
-  Id find(Id place) {
-    while (joined_[place] != place) place = joined_[place] = joined_[joined_[place]];
-    return place;
-  }
-
-  GlobalIndex extrema_;
-  std::vector<Id> joined_;  ///< for each a step to the one that stands for it
 };
 
 /// The paths of one side as this rank has them.

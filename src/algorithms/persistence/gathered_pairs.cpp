@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <exception>
 #include <memory>
 #include <optional>
 #include <tuple>
@@ -76,20 +75,16 @@ class PairsOnRanks {
   void gather() {
     std::array<std::vector<SentSimplex>, 4> own;
     std::vector<SentSimplex> highest;
-    std::exception_ptr failure;
+    Outcome sorted;  // of which the others hear when they have followed paths
     EndsOfSaddles ends;
     const auto sort_own = [&] {
-      try {
-        own_ = filtration_of(gradient_, threads_);
-        own = simplices_to_send(gradient_, own_);
-      } catch (...) {
-        failure = std::current_exception();  // of which the others hear when they have followed paths
-      }
+      own_ = filtration_of(gradient_, threads_);
+      own = simplices_to_send(gradient_, own_);
     };
-    meanwhile(sort_own, [&] { ends = ends_on_ranks(gradient_, *places_); });
+    meanwhile([&] { sorted = tried(sort_own); }, [&] { ends = ends_on_ranks(gradient_, *places_); });
     std::vector<std::int64_t> bytes(ranks_.size(), 0);
     together(ranks_, [&] {
-      if (failure) std::rethrow_exception(failure);
+      if (sorted.has_failed) throw Error(sorted.failure);
       highest = highest_to_send(gradient_);  // by a kernel: not beside others
       for (const auto& some : own) bytes[0] += static_cast<std::int64_t>(some.size() * sizeof(SentSimplex));
       bytes[0] += static_cast<std::int64_t>((ends.of_edges.size() + ends.of_facets.size()) * sizeof(SentEnds));

@@ -84,6 +84,8 @@ class GivenIntervals {
 
   const IdInterval& of(int rank) const { return by_rank_[rank]; }
 
+  int ranks() const { return static_cast<int>(by_rank_.size()); }
+
   /// Calls visit(interval) for each interval of ids that a rank is the lowest to hand over, ascending.
   template <class Visit>
   void visit_first_givers_of(int rank, const Visit& visit) const {
