@@ -5,6 +5,7 @@
 #include <gale/base/bits.hpp>
 #include <gale/base/device.hpp>
 #include <gale/base/error.hpp>
+#include <gale/base/parallel.hpp>
 
 #if defined(KOKKOS_ENABLE_CUDA)
 
@@ -25,7 +26,7 @@ void require_success(cudaError_t status, const std::string& what) {
 std::uint64_t differing_bits(const WorkerSpace& space, const Array<std::uint64_t, WorkerMemory>& keys) {
   std::uint64_t all = 0;
   Kokkos::parallel_reduce(
-      "GALE::sort_bits", Kokkos::RangePolicy<WorkerSpace, Kokkos::IndexType<Offset>>(space, 0, keys.extent(0)),
+      "GALE::sort_bits", detail::device_range(space, keys.extent(0)),
       KOKKOS_LAMBDA(Offset i, std::uint64_t & bits) { bits |= keys(i) ^ keys(0); }, Kokkos::BOr<std::uint64_t>(all));
   return all;
 }

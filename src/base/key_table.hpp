@@ -31,7 +31,7 @@ class KeyTable {
   KOKKOS_FUNCTION Offset places() const { return static_cast<Offset>(keys_.extent(0)); }
 
   /// How many keys it has places for, with some to spare that keep searches short.
-  Offset room() const { return 7 * places() / 10; }
+  KOKKOS_FUNCTION Offset room() const { return 7 * places() / 10; }
 
   /// A power of two that has room for so many keys.
   static Offset places_for(Offset keys) { return Offset(1) << bits_for(2 * keys); }
@@ -41,11 +41,20 @@ class KeyTable {
 
   /// The place of a key; `is_new` says whether it was inserted now.
   KOKKOS_FUNCTION std::uint64_t insert(std::uint64_t key, bool& is_new) const {
-    for (std::uint64_t place = first_place(key);; place = next_place(place)) {
-      std::uint64_t there = atomic_read(&keys_(place));
+    return insert(key, first_there(key), is_new);
+  }
+
+  /// Reads what is where a key is looked for first: with that read before, keys that are inserted one after the other
+  /// are waited for together.
+  KOKKOS_FUNCTION std::uint64_t first_there(std::uint64_t key) const { return atomic_read(&keys_(first_place(key))); }
+
+  /// Inserts a key likewise, when first_there(key) was `there`.
+  KOKKOS_FUNCTION std::uint64_t insert(std::uint64_t key, std::uint64_t there, bool& is_new) const {
+    for (std::uint64_t place = first_place(key);; there = atomic_read(&keys_(place))) {
       if (there == none) there = atomic_compare_exchange(&keys_(place), none, key);
       is_new = there == none;
       if (is_new || there == key) return place;
+      place = next_place(place);
     }
   }
 

@@ -112,7 +112,7 @@ using PinnedMemory = Kokkos::HostSpace;
 
 /// The policy of a launch that overlaps with launches on other instances: its functor, of less than 4 KiB, travels with
 /// the launch. In constant memory, where Kokkos::Cuda puts those of more than 512 bytes otherwise, there is one at a
-/// time; larger ones are launched as always.
+/// time: who launches the next waits until this one's kernel is done.
 template <class Policy>
 auto overlapping(const Policy& policy) {
   return Kokkos::Experimental::require(policy, Kokkos::Experimental::WorkItemProperty::HintLightWeight);

@@ -10,7 +10,7 @@
 
 #include <gale/base/kokkos.hpp>
 #include <gale/base/memory.hpp>
-#include <gale/base/parallel.hpp>
+#include <gale/base/momentary.hpp>
 #include <gale/base/stop.hpp>
 #include <gale/base/threads.hpp>
 #include <gale/base/transfer.hpp>
@@ -191,26 +191,12 @@ class Mirrored {
 
 namespace detail {
 
-/// Reads entries by their places.
-template <class T, class Memory>
-struct ReadEntries {
-  Array<const T, Memory> entries;
-  Array<const Id, Memory> places;
-  Array<T, Memory> found;
-
-  KOKKOS_FUNCTION void operator()(Offset i) const { found(i) = entries(places(i)); }
-};
-
 /// Some of the entries, read where all were made.
 template <class T>
 std::vector<T> entries_at(const Mirrored<T>& all, const std::vector<Id>& places) {
   return in_worker_or_host_space(all.on_device(), [&](const auto& space) -> std::vector<T> {
     using Memory = MemoryOf<std::decay_t<decltype(space)>>;
-    const ReadEntries<T, Memory> read{all.template in<Memory>(), in_memory<Memory>(places),
-                                      allocate<Array<T, Memory>>("GALE::entries_at", places.size())};
-    parallel_for("GALE::entries_at", space, static_cast<Offset>(places.size()), read);
-    space.fence();
-    return vector_of(read.found);
+    return results_at("GALE::entries_at", space, places, EntryAt<T, Memory>{all.template in<Memory>()});
   });
 }
 

@@ -94,6 +94,12 @@ std::vector<T> concatenated(std::vector<std::vector<T>> parts) {
   return all;
 }
 
+/// 0..n-1 on a device, for a loop that is enqueued at once, whatever is under way on this instance or others.
+template <class Space>
+auto device_range(const Space& space, Offset n) {
+  return overlapping(Kokkos::RangePolicy<Space, Kokkos::IndexType<Offset>>(space, 0, n));
+}
+
 }  // namespace detail
 
 /// Calls `body(i)` for every i in 0..n-1, in parallel and in no order. On a device it returns at once.
@@ -101,7 +107,7 @@ template <class Space, class Body>
 void parallel_for(const char* label, const Space& space, Offset n, const Body& body) {
   require_kokkos();
   if constexpr (is_device<Space>) {
-    Kokkos::parallel_for(label, Kokkos::RangePolicy<Space, Kokkos::IndexType<Offset>>(space, 0, n), body);
+    Kokkos::parallel_for(label, detail::device_range(space, n), body);
   } else {
     detail::for_parts(label, n, detail::threads_for(n),
                       [&](int, Offset begin, Offset end) { detail::for_range(begin, end, body); });
@@ -179,7 +185,7 @@ T exclusive_scan(const char* label, const Space& space, Offset n, const Array<T,
   if constexpr (is_device<Space>) {
     T total = 0;
     Kokkos::parallel_scan(
-        label, Kokkos::RangePolicy<Space, Kokkos::IndexType<Offset>>(space, 0, n + 1),
+        label, detail::device_range(space, n + 1),
         KOKKOS_LAMBDA(Offset i, T & sum, bool final) {
           const T here = i < n ? static_cast<T>(count(i)) : T(0);
           if (final) begin(i) = sum;
@@ -214,7 +220,7 @@ T reduce_min(const char* label, const Space& space, Offset n, T initial, const V
   if constexpr (is_device<Space>) {
     T least = initial;
     Kokkos::parallel_reduce(
-        label, Kokkos::RangePolicy<Space, Kokkos::IndexType<Offset>>(space, 0, n),
+        label, detail::device_range(space, n),
         KOKKOS_LAMBDA(Offset i, T & best) {
           const T here = value(i);
           if (here < best) best = here;
@@ -240,8 +246,7 @@ Offset reduce_sum(const char* label, const Space& space, Offset n, const Value& 
   if constexpr (is_device<Space>) {
     Offset total = 0;
     Kokkos::parallel_reduce(
-        label, Kokkos::RangePolicy<Space, Kokkos::IndexType<Offset>>(space, 0, n),
-        KOKKOS_LAMBDA(Offset i, Offset & sum) { sum += value(i); }, total);
+        label, detail::device_range(space, n), KOKKOS_LAMBDA(Offset i, Offset & sum) { sum += value(i); }, total);
     return total;
   } else {
     const std::vector<Offset> sums = detail::of_parts(label, n, [&](Offset first, Offset last) {
@@ -269,8 +274,7 @@ Array<Id, MemoryOf<Space>> selected(const char* label, const Space& space, Offse
   if constexpr (is_device<Space>) {
     const auto all = allocate<Array<Id, MemoryOf<Space>>>(label, reduce_sum(label, space, n, is_wanted));
     Kokkos::parallel_scan(
-        label, Kokkos::RangePolicy<Space, Kokkos::IndexType<Offset>>(space, 0, n),
-        KOKKOS_LAMBDA(Offset i, Offset & before, bool final) {
+        label, detail::device_range(space, n), KOKKOS_LAMBDA(Offset i, Offset & before, bool final) {
           if (!is_wanted(i)) return;
           if (final) all(before) = static_cast<Id>(i);
           ++before;
@@ -296,7 +300,7 @@ void for_teams(const char* label, const Space& space, Offset teams, int warps, O
   if constexpr (is_device<Space>) {
     Kokkos::TeamPolicy<Space> policy(space, static_cast<int>(teams), warps, lanes_per_warp);
     policy.set_scratch_size(0, Kokkos::PerTeam(static_cast<int>(kernel.scratch_bytes() + 16)));
-    Kokkos::parallel_for(label, policy, kernel);
+    Kokkos::parallel_for(label, overlapping(policy), kernel);
   } else {
     for_parts(label, teams, threads_for(items), [&](int, Offset first, Offset last) {
       std::vector<char> scratch(kernel.scratch_bytes());

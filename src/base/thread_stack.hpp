@@ -1,27 +1,27 @@
 #pragma once
 
-#include <algorithm>
-
 #include <gale/base/atomic.hpp>
 #include <gale/base/memory.hpp>
 
 namespace gale::detail {
 
-/// How many steps each thread of a launch takes at most: few where threads are many, so that no launch waits for the
-/// longest way; where few long ways are left, as many as take longer than another launch. A step finds two entries at
-/// most, a first one three, and a thread leaves as many at most to come back to.
+/// How many steps each thread of a launch takes at most: few, so that what it leaves open soon gets threads of its own,
+/// and no launch waits for the longest way; where few ways are left, as many as take longer than another launch. A step
+/// finds two entries at most, a first one three, and a thread leaves as many at most to come back to.
 struct StepsOfLaunch {
   static constexpr Offset found_in(int steps) { return 2 * Offset(steps) + 1; }
 
-  static int most_of(Offset threads) {
-    constexpr Offset of_all = 1 << 16, fewest = 16, most = 128;
-    return static_cast<int>(std::clamp(of_all / threads, fewest, most));
+  KOKKOS_FUNCTION static int most_of(Offset threads) {
+    constexpr Offset of_all = 1 << 16, fewest = 8, most = 16;
+    const Offset each = of_all / threads;
+    return static_cast<int>(each < fewest ? fewest : each > most ? most : each);
   }
 
   /// The most for which each of so many threads finds no more than there is room for in all: 1 or more, if that is
   /// room for one step.
-  static int in(Offset room, Offset threads) {
-    return static_cast<int>(std::min((room / threads - 1) / 2, Offset(most_of(threads))));
+  KOKKOS_FUNCTION static int in(Offset room, Offset threads) {
+    const Offset fit = (room / threads - 1) / 2, most = most_of(threads);
+    return static_cast<int>(fit < most ? fit : most);
   }
 };
 

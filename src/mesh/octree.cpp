@@ -155,9 +155,8 @@ struct BoxOfPoints {
 template <class Coordinate>
 Box box_on_device(const WorkerSpace& space, const Points<Coordinate, WorkerMemory>& points) {
   Box box = empty_box();
-  Kokkos::parallel_reduce("GALE::bounding_box",
-                          Kokkos::RangePolicy<WorkerSpace, Kokkos::IndexType<Offset>>(space, 0, points.extent(0)),
-                          BoxOfPoints<Coordinate>{points}, box);
+  Kokkos::parallel_reduce("GALE::bounding_box", device_range(space, points.extent(0)), BoxOfPoints<Coordinate>{points},
+                          box);
   return box;
 }
 

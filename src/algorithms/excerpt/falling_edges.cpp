@@ -1,9 +1,9 @@
 #include <algorithm>
+#include <utility>
 
 #include <gale/algorithms/excerpt/falling_edges.hpp>
 #include <gale/base/error.hpp>
 #include <gale/base/stop.hpp>
-#include <gale/base/thread_stack.hpp>
 #include <gale/base/transfer.hpp>
 
 namespace gale::detail {
@@ -13,25 +13,39 @@ namespace {
 /// What stands for no edge to go on from.
 KOKKOS_FUNCTION FallenEdge no_edge() { return {no_id, no_id, no_id}; }
 
-/// Comes to edges and goes on from there, one thread of a launch. Threads tell of what they have found once, at their
+/// Comes to edges and goes on from there, in a chain of launches. Threads tell of what they have found once, at their
 /// ends, but for what is left to other ranks.
 struct FallFrom {
   EdgesInKernels edges;
   Array<const std::uint64_t, WorkerMemory> keys;
   FallenEdges found;
-  int steps;  ///< of each thread
 
-  /// An edge, and what it is paired with: no_id where another rank knows.
-  KOKKOS_FUNCTION FallenEdge look_at(Id high, Id low) const {
+  KOKKOS_FUNCTION LaunchPart& part() const { return found.counts(0).part; }
+  KOKKOS_FUNCTION Offset open() const { return found.counts(0).open; }
+
+  /// For how many more edges there is room in all that keep them.
+  KOKKOS_FUNCTION Offset room() const {
+    const FallenCounts& counts = found.counts(0);
+    const Offset of_all = found.all.room() - counts.all;
+    const Offset of_open = static_cast<Offset>(found.open.extent(0)) - counts.open;
+    const Offset of_left = static_cast<Offset>(found.left.extent(0)) - counts.left;
+    const Offset of_lists = of_open < of_left ? of_open : of_left;
+    return of_all < of_lists ? of_all : of_lists;
+  }
+
+  /// An edge by its key, and what it is paired with: no_id where another rank knows.
+  KOKKOS_FUNCTION FallenEdge look_at(std::uint64_t key) const {
+    const Id high = pair_first(key), low = pair_second(key);
     return {high, low, edges.owned.has(high) ? edges(high, low).third : no_id};
   }
 
-  /// Comes to an edge. Returns it if others fall from it and it is new, else none.
-  KOKKOS_FUNCTION FallenEdge come_to(const FallenEdge& edge, Offset& count) const {
+  /// Comes to an edge, for which found.all.first_there() was `there`. Returns it if others fall from it and it is new,
+  /// else none.
+  KOKKOS_FUNCTION FallenEdge come_to(const FallenEdge& edge, std::uint64_t there, Offset& count) const {
     const bool is_here = edges.owned.has(edge.high);
     if (is_here && edge.third == edge_has_vertex) return no_edge();
     bool is_new = false;
-    found.all.insert(pair_key(edge.high, edge.low), is_new);
+    found.all.insert(pair_key(edge.high, edge.low), there, is_new);
     if (!is_new) return no_edge();
     ++count;
     if (is_here) return edge.third < 0 ? no_edge() : edge;
@@ -39,13 +53,17 @@ struct FallFrom {
     return no_edge();
   }
 
-  /// Goes on from an edge, unless it is none; `count` were found before.
-  KOKKOS_FUNCTION void go_on(FallenEdge edge, Offset count) const {
+  /// Goes on from an open edge.
+  KOKKOS_FUNCTION void go_on(Offset i, int steps) const {
     const LaneMask lanes = lanes_here();
     ThreadStack<FallenEdge, 24> open;
+    FallenEdge edge = found.open(i);
+    Offset count = 0;
     for (int step = 0; step < steps && edge.high != no_id && open.has_room_for(2); ++step) {
-      const FallenEdge sides[] = {side(edge.high, edge.third), side(edge.low, edge.third)};
-      const FallenEdge one = come_to(sides[0], count), other = come_to(sides[1], count);
+      const std::uint64_t key = ordered(edge.high, edge.third), other_key = ordered(edge.low, edge.third);
+      const std::uint64_t there = found.all.first_there(key), other_there = found.all.first_there(other_key);
+      const FallenEdge side = look_at(key), other_side = look_at(other_key);
+      const FallenEdge one = come_to(side, there, count), other = come_to(other_side, other_there, count);
       if (one.high != no_id && other.high != no_id) open.push(other);
       edge = one.high != no_id ? one : other;
       if (edge.high == no_id && !open.is_empty()) edge = open.pop();
@@ -57,29 +75,28 @@ struct FallFrom {
   }
 
  private:
-  KOKKOS_FUNCTION FallenEdge side(Id end, Id third) const {
-    const bool in_order = keys(end) > keys(third);
-    return look_at(in_order ? end : third, in_order ? third : end);
+  /// The key of an edge between two vertices.
+  KOKKOS_FUNCTION std::uint64_t ordered(Id a, Id b) const {
+    return keys(a) > keys(b) ? pair_key(a, b) : pair_key(b, a);
   }
 };
 
-/// Goes on from edges that were left open.
-struct FallFromOpen {
-  FallFrom fall;
-  Offset first;
-
-  KOKKOS_FUNCTION void operator()(Offset i) const { fall.go_on(fall.found.open(first + i), 0); }
-};
-
-/// Begins with some edges.
+/// Begins with some edges, which are left open.
 struct BeginEdges {
   FallFrom fall;
   Array<const Id, WorkerMemory> ends;  ///< two for each
 
   KOKKOS_FUNCTION void operator()(Offset i) const {
+    const LaneMask lanes = lanes_here();
     Offset count = 0;
-    const FallenEdge edge = fall.come_to(fall.look_at(ends(2 * i), ends(2 * i + 1)), count);
-    fall.go_on(edge, count);
+    const std::uint64_t key = pair_key(ends(2 * i), ends(2 * i + 1));
+    const FallenEdge edge = fall.come_to(fall.look_at(key), fall.found.all.first_there(key), count);
+    ThreadStack<FallenEdge, 1> open;
+    if (edge.high != no_id) open.push(edge);
+    meet(lanes);
+    FallenCounts& counts = fall.found.counts(0);
+    open.append_to(fall.found.open, &counts.open);
+    add_in_turn(&counts.all, count);
   }
 };
 
@@ -114,16 +131,14 @@ std::vector<std::array<Id, 2>> FallingEdges::fall(const std::vector<std::array<I
   const Offset left_before = counts_.left, count = static_cast<Offset>(edges.size());
   make_room(space_, "GALE::ends_of_edges", ends_, 0, 2 * count);
   copy_to_device(ends_.data(), edges[0].data(), edges.size() * sizeof(edges[0]));
-  Offset first = counts_.open;
-  const int steps = reserve(count);
-  parallel_for("GALE::begin_edges", space_, count, BeginEdges{{edges_, keys_, found_, steps}, ends_});
+  reserve(count);
+  parallel_for("GALE::begin_edges", space_, count, BeginEdges{{edges_, keys_, found_}, ends_});
+  launch_chain("GALE::fall_from_open", space_, count, FallFrom{edges_, keys_, found_});
   take_counts();
-  while (first < counts_.open) {
+  while (const Offset open = counts_.open - counts_.part.end) {
     stop_if_asked();
-    const Offset open = counts_.open - first;
-    const int more_steps = reserve(open);
-    parallel_for("GALE::fall_from_open", space_, open, FallFromOpen{{edges_, keys_, found_, more_steps}, first});
-    first += open;
+    reserve(open);
+    launch_chain("GALE::fall_from_open", space_, open, FallFrom{edges_, keys_, found_});
     take_counts();
   }
   if (counts_.left == left_before) return {};
@@ -147,23 +162,19 @@ std::vector<std::array<Id, 3>> FallingEdges::passed() const {
   return all;
 }
 
-/// Makes room for what a launch of so many threads finds, in half of the steps that it may take where there is so much,
-/// else in one. Returns how many steps there is room for then. Throws OutOfMemory.
-int FallingEdges::reserve(Offset threads) {
+/// Makes room for what a chain's first launch of so many threads finds, in half of the steps that it may take where
+/// there is so much, else in one. Throws OutOfMemory.
+void FallingEdges::reserve(Offset threads) {
   try {
     make_room_for(threads * StepsOfLaunch::found_in(StepsOfLaunch::most_of(threads) / 2), expected_);
   } catch (const OutOfMemory&) {
     make_room_for(threads * StepsOfLaunch::found_in(1), EdgesInKernels::few_passed);
   }
-  const auto room_of = [](const auto& array) { return static_cast<Offset>(array.extent(0)); };
-  const Offset room = std::min(
-      {found_.all.room() - counts_.all, room_of(found_.open) - counts_.open, room_of(found_.left) - counts_.left});
-  return StepsOfLaunch::in(room, threads);
 }
 
 void FallingEdges::make_room_for(Offset more, Offset least) {
-  make_room(space_, "GALE::left_edges", found_.left, counts_.left, counts_.left + more);
-  make_room(space_, "GALE::open_edges", found_.open, counts_.open, counts_.open + more);
+  make_room(space_, "GALE::left_edges", found_.left, counts_.left, std::max(counts_.left + more, least / 2));
+  make_room(space_, "GALE::open_edges", found_.open, counts_.open, std::max(counts_.open + more, least / 2));
   make_room(space_, found_.all, std::max(counts_.all + more, least));
 }
 

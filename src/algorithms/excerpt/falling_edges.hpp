@@ -5,6 +5,7 @@
 
 #include <gale/algorithms/gradient/edges_in_kernels.hpp>
 #include <gale/base/key_table.hpp>
+#include <gale/base/launch_chain.hpp>
 
 namespace gale::detail {
 
@@ -18,6 +19,7 @@ struct FallenEdge {
 /// open, for launches to go on from in this order.
 struct FallenCounts {
   Offset all = 0, left = 0, open = 0;
+  LaunchPart part;
 };
 
 /// Where kernels put edges that fall. Copies share it.
@@ -30,8 +32,8 @@ struct FallenEdges {
 
 /// Edges that fall along a gradient that kernels found: from one that is paired with a triangle to the other edges of
 /// that triangle, and so on. Each is passed once. A thread goes some steps down one way after the other, and leaves the
-/// rest to the next launch. Takes 15 to 40 bytes an edge in the workers' memory, and where there is room up to 900 for
-/// each of those that it begins with, or 4 MB for few of them; 24 MB to begin with where many are expected. Refers to
+/// rest to the next launch. Takes 15 to 40 bytes an edge in the workers' memory, and where there is room up to 700 for
+/// each of those that it begins with, or 4 MB for few of them; 110 MB to begin with where many are expected. Refers to
 /// the gradient.
 class FallingEdges {
  public:
@@ -46,7 +48,7 @@ class FallingEdges {
   std::vector<std::array<Id, 3>> passed() const;
 
  private:
-  int reserve(Offset threads);
+  void reserve(Offset threads);
   void make_room_for(Offset more, Offset least);
   void take_counts();
 

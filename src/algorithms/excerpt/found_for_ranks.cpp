@@ -2,10 +2,12 @@
 #include <tuple>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include <gale/algorithms/excerpt/found_for_ranks.hpp>
 #include <gale/algorithms/excerpt/numbered_set.hpp>
 #include <gale/base/parallel.hpp>
+#include <gale/base/sort.hpp>
 
 namespace gale::detail {
 
@@ -56,6 +58,31 @@ void join_all(std::vector<FoundFor>& found, Reached& sent, std::index_sequence<i
 }
 
 }  // namespace
+
+void FoundFor::set_cell_steps(std::vector<std::array<Id, 2>> steps, const CellReader& corners_of,
+                              const PathSimplices& simplices) {
+  const Offset count = static_cast<Offset>(steps.size());
+  std::vector<Id> ids = collected<Id>("GALE::reached_cells", count, [&](Offset i, const auto& add) {
+    for (const Id cell : steps[i]) {
+      if (cell >= 0) add(cell);
+    }
+  });
+  sort_distinct("GALE::reached_cells", ids);
+  cells = unwritten<ReachedCell>(ids.size());
+  parallel_for("GALE::reached_cells", HostExecutionSpace(), ids.size(), [&](Offset i) {
+    const Quad corners = corners_of(ids[i]);
+    cells[i] = {simplices.global(ids[i]), {corners.a, corners.b, corners.c, corners.d}};
+  });
+  const auto place_of = [&](Id cell) {
+    return static_cast<Id>(std::lower_bound(ids.begin(), ids.end(), cell) - ids.begin());
+  };
+  cell_steps = std::move(steps);
+  parallel_for("GALE::reached_cells", HostExecutionSpace(), count, [&](Offset i) {
+    auto& [cell, next] = cell_steps[i];
+    cell = place_of(cell);
+    next = next >= 0 ? place_of(next) : next == no_id ? no_id : step_outside(corner_outside(next));
+  });
+}
 
 void FoundForRanks::number_vertices() {
   for (FoundFor& found : found_) {

@@ -46,6 +46,10 @@ struct FoundFor : ReachedLists<FoundList> {
     cell_steps.push_back({place, there});
     return place;
   }
+
+  /// Has these steps, of cells by their ids, and no others: instead of add_step() and place_of().
+  void set_cell_steps(std::vector<std::array<Id, 2>> steps, const CellReader& corners_of,
+                      const PathSimplices& simplices);
 };
 
 /// What a rank has found for all that ask.

@@ -26,7 +26,8 @@ SteppedPaths step_along_paths(const Space& space, const Array<const Id, MemoryOf
   using Memory = MemoryOf<Space>;
   const auto simplices = follow_whole(space, successors, starts, true).simplices;
   const auto next = allocate<Array<Id, Memory>>("GALE::next_on_path", simplices.extent(0));
-  parallel_for("GALE::next_on_path", space, simplices.extent(0), ReadEntries<Id, Memory>{successors, simplices, next});
+  parallel_for("GALE::next_on_path", space, simplices.extent(0),
+               WriteValues<Id, Memory, EntryAt<Id, Memory>>{{successors}, simplices, next});
   space.fence();
   return {on_host(simplices), on_host(next)};
 }

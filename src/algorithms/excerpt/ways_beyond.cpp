@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -41,36 +42,41 @@ class PathsBeyond {
 
   void begin_at(int asker, GlobalId simplex) { starts_[asker].push_back(simplices_.local(simplex)); }
 
-  /// Calls visit(simplex, successor), by GALE's ids, for all that one rank's paths pass here, once each.
-  template <class Visit>
-  void follow(int asker, const Visit& visit) {
+  /// The steps of one rank's paths here, each a simplex and its successor, by GALE's ids: ascending, once each.
+  std::vector<std::array<Id, 2>> steps(int asker) {
     std::vector<Id>& starts = starts_[asker];
-    if (starts.empty()) return;
+    if (starts.empty()) return {};
     sort_distinct("GALE::sort_starts", starts);
-    HashTable<IsSeen> passed;
-    const auto pass = [&](Id simplex, Id next) {
-      if (next == DiscreteGradient::elsewhere || !passed.insert(static_cast<std::uint64_t>(simplex)).second)
-        return false;
-      visit(simplex, next);
-      return true;
-    };
     const Mirrored<Id>& successors = simplices_.successors();
-    in_worker_or_host_space(successors.on_device(), [&](const auto& space) {
+    auto steps = in_worker_or_host_space(successors.on_device(), [&](const auto& space) {
       using Space = std::decay_t<decltype(space)>;
       if constexpr (is_device<Space>) {
         const SteppedPaths paths = step_along_paths(space, successors.in<MemoryOf<Space>>(), starts);
-        for (Offset i = 0; i < static_cast<Offset>(paths.simplices.extent(0)); ++i) {
-          stop_if_asked_at(i);
-          pass(paths.simplices(i), paths.next(i));
-        }
+        return concatenated(of_parts("GALE::steps_beyond", paths.simplices.extent(0), [&](Offset begin, Offset end) {
+          std::vector<std::array<Id, 2>> steps;
+          for_range(begin, end, [&](Offset i) {
+            if (paths.next(i) != DiscreteGradient::elsewhere) steps.push_back({paths.simplices(i), paths.next(i)});
+          });
+          std::sort(steps.begin(), steps.end());
+          steps.erase(std::unique(steps.begin(), steps.end()), steps.end());
+          return steps;
+        }));
       } else {
+        std::vector<std::array<Id, 2>> steps;
+        HashTable<IsSeen> passed;
         const Id* const next = successors.in<HostMemory>().data();
         for (Id at : starts) {
           stop_if_asked();
-          while (at >= 0 && pass(at, next[at])) at = next[at];
+          for (; at >= 0 && next[at] != DiscreteGradient::elsewhere; at = next[at]) {
+            if (!passed.insert(static_cast<std::uint64_t>(at)).second) break;
+            steps.push_back({at, next[at]});
+          }
         }
+        return steps;
       }
     });
+    sort_distinct("GALE::steps_beyond", steps);
+    return steps;
   }
 
  private:
@@ -120,9 +126,8 @@ class WaysBeyond {
     }
     const CellReader corners = mesh_.cell_reader();
     for (int asker = 0; asker < ranks_.size(); ++asker) {
-      FoundFor& found = found_[asker];
-      vertices_.follow(asker, [&](Id vertex, Id next) { found.vertex_steps.push_back({vertex, next}); });
-      cells_.follow(asker, [&](Id cell, Id next) { found.add_step(cell, next, corners, cell_simplices_); });
+      found_[asker].vertex_steps = vertices_.steps(asker);
+      found_[asker].set_cell_steps(cells_.steps(asker), corners, cell_simplices_);
     }
     found_.number_vertices();
     return found_;

@@ -244,7 +244,7 @@ class Attempt {
     outgrown_ = {"GALE::outgrown", count};
     if (words_used_ > room.words) return;
     Kokkos::parallel_for(
-        "GALE::pair_large_stars", Kokkos::RangePolicy<WorkerSpace, Kokkos::IndexType<Offset>>(space, 0, count),
+        "GALE::pair_large_stars", detail::device_range(space, count),
         detail::PairLargeStars{pair.keys, sink_, words_.data(), pairs_begin_.data(), large_, outgrown_});
     space.fence();
   }

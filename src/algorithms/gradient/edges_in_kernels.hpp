@@ -41,7 +41,7 @@ struct EdgesInKernels {
   }
 
   /// Estimates how many edges walls pass, from how many are numbered: tables that begin smaller grow again and again.
-  static Offset usual_passed(Offset numbers) { return std::clamp<Offset>(numbers / 128, few_passed, 1 << 20); }
+  static Offset usual_passed(Offset numbers) { return std::clamp<Offset>(numbers / 32, few_passed, 1 << 22); }
 
   /// Suffices for small tables to begin with.
   static constexpr Offset few_passed = 1 << 16;

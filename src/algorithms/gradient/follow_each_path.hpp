@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <gale/base/mirrored.hpp>
+#include <gale/base/momentary.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/stop.hpp>
 #include <gale/base/transfer.hpp>
@@ -38,11 +39,13 @@ template <class Space>
 PathStops follow_in(const Space& space, const char* label, const Array<const Id, MemoryOf<Space>>& successors,
                     const Array<Id, HostMemory>& starts) {
   using Memory = MemoryOf<Space>;
-  const FollowPath<Memory> follow{successors, in_memory<Memory>(starts),
-                                  allocate<Array<Id, Memory>>("GALE::path_ends", starts.extent(0)),
-                                  allocate<Array<Id, Memory>>("GALE::behind_path_ends", starts.extent(0))};
-  parallel_for(label, space, starts.extent(0), follow);
-  return {on_host(follow.last), on_host(follow.next)};
+  const Momentary<const Id, Memory> from("GALE::path_starts", starts);
+  const Momentary<Id, Memory> last("GALE::path_ends", starts.extent(0));
+  const Momentary<Id, Memory> next("GALE::behind_path_ends", starts.extent(0));
+  parallel_for(label, space, starts.extent(0),
+               FollowPath<Memory>{successors, from.array(), last.array(), next.array()});
+  space.fence();
+  return {on_host(last.array()), on_host(next.array())};
 }
 
 /// Counts the simplices of paths. Those that leave through the surface may have none.
@@ -90,7 +93,8 @@ PathsFromStarts<MemoryOf<Space>> follow_whole(const Space& space, const Successo
                                               const std::vector<Id>& starts, bool with_leaving) {
   using Memory = MemoryOf<Space>;
   const Offset count = static_cast<Offset>(starts.size());
-  const auto from = in_memory<Memory>(starts);
+  const Momentary<const Id, Memory> of("GALE::path_starts", Array<const Id, HostMemory>(starts.data(), starts.size()));
+  const Array<const Id, Memory>& from = of.array();
   const auto begin = allocate<Array<Offset, Memory>>("GALE::path_begin", count + 1);
   parallel_for("GALE::path_lengths", space, count,
                CountOnPath<Successors, Memory>{successors, from, with_leaving, begin});

@@ -1,5 +1,6 @@
 #include <gale/algorithms/merge_tree/vertex_arcs.hpp>
 #include <gale/base/memory.hpp>
+#include <gale/base/momentary.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/transfer.hpp>
 
@@ -41,6 +42,13 @@ struct FindArcs {
   }
 };
 
+/// Finds the node of a vertex on one side.
+template <class Memory>
+struct NodeOf {
+  SideClimb<Memory> side;
+  KOKKOS_FUNCTION Id operator()(Id vertex) const { return side.node_of(vertex); }
+};
+
 }  // namespace
 
 template <class Space>
@@ -80,14 +88,7 @@ std::vector<std::vector<Id>> arcs_of_vertices(const Space& space, const Mesh& me
 
 template <class Space>
 std::vector<Id> nodes_of(const Space& space, const SideClimb<MemoryOf<Space>>& side, const std::vector<Id>& vertices) {
-  using Memory = MemoryOf<Space>;
-  const Array<const Id, Memory> of = in_memory<Memory>(vertices);
-  const auto nodes = allocate<Array<Id, Memory>>("GALE::nodes_of", vertices.size());
-  parallel_for(
-      "GALE::nodes_of", space, static_cast<Offset>(vertices.size()),
-      KOKKOS_LAMBDA(Offset i) { nodes(i) = side.node_of(of(i)); });
-  space.fence();
-  return vector_of(nodes);
+  return results_at("GALE::nodes_of", space, vertices, NodeOf<MemoryOf<Space>>{side});
 }
 
 #define GALE_INSTANTIATE(Space)                                                                                      \

@@ -127,16 +127,15 @@ class Connectors {
  private:
   GrownWalls grow(Id first_wall, Id count, Offset most_edges) {
     begin(critical_.data() + first_wall, count);
-    for (Offset first = 0; first < counts_.open;) {
+    while (counts_.part.end < counts_.open) {
       stop_if_asked();
-      if (counts_.edges > most_edges) throw OutOfMemory("walls of more than " + std::to_string(most_edges) + " edges");
-      const Offset open = counts_.open - first;
-      const int steps = reserve(first, open, most_edges);
-      parallel_for("GALE::grow_walls", space_, open, GrowWalls{rows_, found_, first, steps});
+      const Offset open = counts_.open - counts_.part.end;
+      reserve(counts_.part.end, open, most_edges);
+      launch_chain("GALE::grow_walls", space_, open, GrowWalls{rows_, found_});
       Kokkos::deep_copy(space_, Kokkos::View<WallCounts*, HostMemory, Kokkos::MemoryUnmanaged>(&counts_, 1),
                         found_.counts);
       space_.fence();
-      first += open;
+      if (counts_.edges > most_edges) throw OutOfMemory("walls of more than " + std::to_string(most_edges) + " edges");
     }
     const GrownWalls grown{rows_, found_, WallTable(space_, found_.edges.places()),
                            allocate<InWorkers<WallRim>>("GALE::wall_rims", counts_.rims)};
@@ -150,7 +149,7 @@ class Connectors {
     found_.triangles = {};
     found_.open = {};
     found_.edges = {};
-    counts_ = {0, 0, count};
+    counts_ = {0, 0, count, {}};
     found_.critical = allocate<InWorkers<WallTriangle>>("GALE::critical_triangles", count);
     found_.open = allocate<InWorkers<std::uint32_t>>("GALE::open_triangles", count);
     Kokkos::deep_copy(found_.counts, Given<WallCounts>(&counts_, 1));
@@ -159,16 +158,13 @@ class Connectors {
     space_.fence();
   }
 
-  /// Makes room for what a launch of so many threads finds in half of the steps that it may take, where there is so
-  /// much, else in one, as where these were more edges than there may be. Returns how many steps there is room for
-  /// then. Throws OutOfMemory.
-  int reserve(Offset first, Offset threads, Offset most_edges) {
+  /// Makes room for what a chain's first launch of so many threads finds in half of the steps that it may take, where
+  /// there is so much, else in one, as where these were more edges than there may be. Throws OutOfMemory.
+  void reserve(Offset first, Offset threads, Offset most_edges) {
     const Offset in_some = threads * StepsOfLaunch::found_in(StepsOfLaunch::most_of(threads) / 2);
     const Offset later = std::min(counts_.edges, most_edges - counts_.edges - in_some);
     if (later < 0 || !has_made_room_for(in_some, first, later))
       make_room_for(threads * StepsOfLaunch::found_in(1), first, 0, EdgesInKernels::few_passed);
-    const Offset room = std::min(found_.edges.room() - counts_.edges, Offset(found_.open.extent(0)) - counts_.open);
-    return StepsOfLaunch::in(room, threads);
   }
 
   bool has_made_room_for(Offset more, Offset first, Offset later) {

@@ -5,8 +5,8 @@
 #include <gale/algorithms/excerpt/wall_rows.hpp>
 #include <gale/algorithms/morse_smale/wall_table.hpp>
 #include <gale/base/atomic.hpp>
+#include <gale/base/launch_chain.hpp>
 #include <gale/base/memory.hpp>
-#include <gale/base/thread_stack.hpp>
 
 // Descending walls that grow side by side in kernels, and the ways up them.
 //
@@ -36,6 +36,7 @@ struct WallRim {
 /// open, for launches to go on from in this order.
 struct WallCounts {
   Offset edges = 0, rims = 0, open = 0;
+  LaunchPart part;
 };
 
 /// Where the kernels that make walls grow put what they find. Copies share it.
@@ -83,33 +84,48 @@ KOKKOS_FUNCTION void for_each_side(const WallRows& rows, const WallTriangle& tri
   }
 }
 
-/// Grows walls from an open triangle, one thread of a launch: one way after the other, but for so many steps alone, so
-/// that no launch waits for the longest way, and while it can keep what it comes back to. What is left then is left
-/// open. Threads tell of what they have found once, at their ends: counters that all of them change at every step would
-/// be what they wait for.
+/// Grows walls from open triangles in a chain of launches: a thread goes one way after the other, but for so many steps
+/// alone, so that no launch waits for the longest way, and while it can keep what it comes back to. What is left then
+/// is left open. Threads tell of what they have found once, at their ends: counters that all of them change at every
+/// step would be what they wait for.
 struct GrowWalls {
   WallRows rows;
   WallSink sink;
-  Offset first;  ///< of `open`, in this launch
-  int steps;     ///< of each thread
 
-  KOKKOS_FUNCTION void operator()(Offset i) const {
+  KOKKOS_FUNCTION LaunchPart& part() const { return sink.counts(0).part; }
+  KOKKOS_FUNCTION Offset open() const { return sink.counts(0).open; }
+
+  /// For how many more edges and open triangles there is room.
+  KOKKOS_FUNCTION Offset room() const {
+    const Offset of_edges = sink.edges.room() - sink.counts(0).edges;
+    const Offset of_open = static_cast<Offset>(sink.open.extent(0)) - sink.counts(0).open;
+    return of_edges < of_open ? of_edges : of_open;
+  }
+
+  KOKKOS_FUNCTION void go_on(Offset i, int steps) const {
     const LaneMask lanes = lanes_here();
     ThreadStack<std::uint32_t, 24> open;
-    WallCounts found;
-    std::uint32_t number = sink.open(first + i);
+    Offset edges = 0, rims = 0;
+    std::uint32_t number = sink.open(i);
     WallTriangle triangle = sink.triangle(number);
     for (int step = 0; step < steps && number != none && open.has_room_for(3); ++step) {
+      WallSide sides[3];
+      std::uint64_t there[3];
+      int count = 0;
+      for_each_side(rows, triangle, sink.is_critical(number), [&](const WallSide& side) {
+        sides[count] = side;
+        there[count++] = sink.edges.first_there(sink.keys(triangle.wall, side.edge.number));
+      });
       std::uint32_t next = none;
       WallTriangle next_triangle{};
-      for_each_side(rows, triangle, sink.is_critical(number), [&](const WallSide& side) {
-        const WallTriangle behind{side.high, side.low, side.edge.third, triangle.wall};
-        const std::uint32_t there = come_to(behind, side.edge.number, found);
-        if (there == none) return;
+      for (int k = 0; k < count; ++k) {
+        const WallTriangle behind{sides[k].high, sides[k].low, sides[k].edge.third, triangle.wall};
+        const std::uint32_t to = come_to(behind, sides[k].edge.number, there[k], edges, rims);
+        if (to == none) continue;
         if (next != none) open.push(next);
-        next = there;
+        next = to;
         next_triangle = behind;
-      });
+      }
       if (next == none && !open.is_empty()) {
         next = open.pop();
         next_triangle = sink.triangle(next);
@@ -120,22 +136,24 @@ struct GrowWalls {
     if (number != none) open.push(number);
     meet(lanes);
     open.append_to(sink.open, &sink.counts(0).open);
-    add_in_turn(&sink.counts(0).edges, found.edges);
-    add_in_turn(&sink.counts(0).rims, found.rims);
+    add_in_turn(&sink.counts(0).edges, edges);
+    add_in_turn(&sink.counts(0).rims, rims);
   }
 
  private:
   static constexpr std::uint32_t none = ~std::uint32_t(0);
 
-  /// Comes to what is behind an edge, by its number: the number of a triangle that the wall grows on from, or none.
-  KOKKOS_FUNCTION std::uint32_t come_to(const WallTriangle& behind, Offset edge, WallCounts& found) const {
+  /// Comes to what is behind an edge, by its number, where the table's first_there() was `there`. Returns the number of
+  /// a triangle that the wall grows on from, or none.
+  KOKKOS_FUNCTION std::uint32_t come_to(const WallTriangle& behind, Offset edge, std::uint64_t there, Offset& edges,
+                                        Offset& rims) const {
     bool is_new = false;
-    const std::uint64_t place = sink.edges.insert(sink.keys(behind.wall, edge), is_new);
+    const std::uint64_t place = sink.edges.insert(sink.keys(behind.wall, edge), there, is_new);
     if (!is_new) return none;
     sink.triangles(place) = behind;
-    ++found.edges;
+    ++edges;
     if (behind.third >= 0) return sink.number_of(place);
-    ++found.rims;
+    ++rims;
     return none;
   }
 };

@@ -5,6 +5,7 @@
 
 #include <gale/base/atomic.hpp>
 #include <gale/base/mirrored.hpp>
+#include <gale/base/momentary.hpp>
 #include <gale/base/parallel.hpp>
 
 namespace gale::detail {
@@ -52,25 +53,18 @@ struct JumpAhead {
   }
 };
 
-/// Reads where the paths of some simplices end.
+/// Reads where a simplex' path ends.
 template <class Memory>
-struct ReadEnd {
-  Array<const Id, Memory> ends, simplices;
-  Array<Id, Memory> places;
-
-  KOKKOS_FUNCTION void operator()(Offset i) const { places(i) = place_of_end(ends(simplices(i))); }
+struct EndAt {
+  Array<const Id, Memory> ends;
+  KOKKOS_FUNCTION Id operator()(Id simplex) const { return place_of_end(ends(simplex)); }
 };
 
 /// The places at which the paths of some simplices end; no_id for those that leave through the surface.
 template <class Space>
 std::vector<Id> ends_of(const Space& space, const Array<const Id, MemoryOf<Space>>& ends,
                         const std::vector<Id>& simplices) {
-  using Memory = MemoryOf<Space>;
-  const ReadEnd<Memory> read{ends, in_memory<Memory>(simplices),
-                             allocate<Array<Id, Memory>>("GALE::ends_of", simplices.size())};
-  parallel_for("GALE::ends_of", space, static_cast<Offset>(simplices.size()), read);
-  space.fence();
-  return vector_of(read.places);
+  return results_at("GALE::ends_of", space, simplices, EndAt<MemoryOf<Space>>{ends});
 }
 
 /// Successors in some memory. Where they lie on the host, a copy on the device lives as long as what is returned.

@@ -98,21 +98,19 @@ Array<Id, MemoryOf<Space>> shared_cells(const Space& space, const Mesh& mesh) {
       });
 }
 
-/// Finds the highest corner of each of some cells; a triangle's third one counts twice.
+/// Finds a cell's highest corner; a triangle's third one counts twice.
 template <class Memory>
-struct FindHighest {
+struct HighestCorner {
   CellReader corners;
   Array<const std::uint64_t, Memory> keys;
-  Array<const Id, Memory> cells;
-  Array<Id, Memory> highest;
 
-  KOKKOS_FUNCTION void operator()(Offset i) const {
-    const Quad of = corners(cells(i));
+  KOKKOS_FUNCTION Id operator()(Id cell) const {
+    const Quad of = corners(cell);
     Id best = of.a;
     for (int k = 1; k < 4; ++k) {
       if (keys(of[k]) > keys(best)) best = of[k];
     }
-    highest(i) = best;
+    return best;
   }
 };
 
@@ -167,11 +165,8 @@ Interval PathSimplices::inner() const {
 std::vector<Id> PathSimplices::highest_corners(const std::vector<Id>& cells) const {
   return in_worker_or_host_space(successors_.on_device(), [&](const auto& space) -> std::vector<Id> {
     using Memory = MemoryOf<std::decay_t<decltype(space)>>;
-    const FindHighest<Memory> find{mesh().cell_reader<Memory>(), order_.keys_in<Memory>(), in_memory<Memory>(cells),
-                                   allocate<Array<Id, Memory>>("GALE::highest_corners", cells.size())};
-    parallel_for("GALE::highest_corners", space, static_cast<Offset>(cells.size()), find);
-    space.fence();
-    return vector_of(find.highest);
+    return results_at("GALE::highest_corners", space, cells,
+                      HighestCorner<Memory>{mesh().cell_reader<Memory>(), order_.keys_in<Memory>()});
   });
 }
 

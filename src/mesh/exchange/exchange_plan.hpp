@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <gale/base/memory.hpp>
+#include <gale/base/momentary.hpp>
 #include <gale/base/transfer.hpp>
 #include <gale/base/types.hpp>
 #include <gale/mesh/exchange/messages.hpp>
@@ -19,8 +20,8 @@ namespace gale::detail {
 template <class T, class Memory>
 struct WriteToSlots {
   T* to;
-  Array<Id, Memory> slots;
-  Array<T, Memory> values;
+  Array<const Id, Memory> slots;
+  Array<const T, Memory> values;
 
   KOKKOS_FUNCTION void operator()(Offset i) const { to[slots(i)] = values(i); }
 };
@@ -161,9 +162,10 @@ class ExchangePlan {
                       T* to) {
     using Memory = MemoryOf<Space>;
     if (slots.extent(0) == 0) return;
-    const Array<Id, Memory> slots_here = in_memory<Memory>(slots);
-    const Array<T, Memory> values_here = in_memory<Memory>(values);
-    parallel_for("GALE::write_to_slots", space, slots.extent(0), WriteToSlots<T, Memory>{to, slots_here, values_here});
+    const Momentary<const Id, Memory> slots_here("GALE::slots", slots);
+    const Momentary<const T, Memory> values_here("GALE::values_of_slots", values);
+    parallel_for("GALE::write_to_slots", space, slots.extent(0),
+                 WriteToSlots<T, Memory>{to, slots_here.array(), values_here.array()});
     space.fence();
   }
 
