@@ -10,7 +10,6 @@
 
 #include <gale/base/kokkos.hpp>
 #include <gale/base/memory.hpp>
-#include <gale/base/momentary.hpp>
 #include <gale/base/stop.hpp>
 #include <gale/base/threads.hpp>
 #include <gale/base/transfer.hpp>
@@ -188,18 +187,5 @@ class Mirrored {
  private:
   Arrays arrays_;
 };
-
-namespace detail {
-
-/// Some of the entries, read where all were made.
-template <class T>
-std::vector<T> entries_at(const Mirrored<T>& all, const std::vector<Id>& places) {
-  return in_worker_or_host_space(all.on_device(), [&](const auto& space) -> std::vector<T> {
-    using Memory = MemoryOf<std::decay_t<decltype(space)>>;
-    return results_at("GALE::entries_at", space, places, EntryAt<T, Memory>{all.template in<Memory>()});
-  });
-}
-
-}  // namespace detail
 
 }  // namespace gale

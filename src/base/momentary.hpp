@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <gale/base/memory.hpp>
+#include <gale/base/mirrored.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/transfer.hpp>
 #include <gale/export.hpp>
@@ -91,6 +92,15 @@ auto results_at(const char* label, const Space& space, const std::vector<Id>& pl
     write_on(given, Array<T, Memory>(values.data(), values.size()));
   }
   return values;
+}
+
+/// Some of the entries, read where all were made.
+template <class T>
+std::vector<T> entries_at(const Mirrored<T>& all, const std::vector<Id>& places) {
+  return in_worker_or_host_space(all.on_device(), [&](const auto& space) -> std::vector<T> {
+    using Memory = MemoryOf<std::decay_t<decltype(space)>>;
+    return results_at("GALE::entries_at", space, places, EntryAt<T, Memory>{all.template in<Memory>()});
+  });
 }
 
 }  // namespace gale::detail

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <gale/base/error.hpp>
+#include <gale/base/momentary.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/mesh/encode.hpp>
 #include <gale/mesh/mesh.hpp>

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <gale/base/memory.hpp>
+#include <gale/base/mirrored.hpp>
+#include <gale/base/momentary.hpp>
 #include <gale/base/types.hpp>
 
 #include "support/arrays.hpp"

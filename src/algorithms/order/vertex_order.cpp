@@ -8,6 +8,7 @@
 #include <gale/algorithms/order/ordered_bits.hpp>
 #include <gale/algorithms/vertex_order.hpp>
 #include <gale/base/error.hpp>
+#include <gale/base/momentary.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/sort.hpp>
 #include <gale/base/transfer.hpp>
