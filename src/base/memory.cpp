@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cstdint>
+#include <mutex>
+#include <utility>
 
 #if defined(__linux__)
 #include <sys/mman.h>
@@ -51,6 +53,12 @@ void give_back([[maybe_unused]] void* data, [[maybe_unused]] std::size_t bytes) 
   const std::uintptr_t first = (place + page_group - 1) / page_group, end = (place + bytes) / page_group;
   if (end > first) madvise(reinterpret_cast<void*>(first * page_group), (end - first) * page_group, MADV_DONTNEED);
 #endif
+}
+
+void call_at_end(std::function<void()> end) {
+  static std::mutex mutex;
+  const std::lock_guard<std::mutex> lock(mutex);
+  Kokkos::push_finalize_hook(std::move(end));
 }
 
 }  // namespace gale::detail

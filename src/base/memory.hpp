@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -29,6 +30,10 @@ GALE_EXPORT void expect_writes(void* data, std::size_t bytes, int threads);
 
 /// Lets the system have back the pages of memory that nobody will read. A hint, too.
 GALE_EXPORT void give_back(void* data, std::size_t bytes);
+
+/// Has Kokkos call `end` before it ends, for memory that is kept until then. On any thread, where Kokkos' own function
+/// takes one at a time.
+void call_at_end(std::function<void()> end);
 
 }  // namespace detail
 

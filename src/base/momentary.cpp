@@ -1,5 +1,4 @@
 #include <mutex>
-#include <utility>
 
 #include <gale/base/error.hpp>
 #include <gale/base/momentary.hpp>
@@ -47,7 +46,7 @@ class KeptPieces {
       return;
     }
     if (made_++ > 0) return;
-    Kokkos::push_finalize_hook([this] {
+    call_at_end([this] {
       free_.clear();
       made_ = 0;
     });

@@ -160,7 +160,7 @@ class CopyChannels {
     use_device();
     free_.reserve(most_channels);
     if (channels_.empty()) {
-      Kokkos::push_finalize_hook([this] {
+      detail::call_at_end([this] {
         free_.clear();
         channels_.clear();
       });

@@ -41,7 +41,7 @@ class KeptMemory {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (kept_.size() >= most_kept || memory.bytes() > most_bytes) return;
     if (kept_.empty() && !hooked_) {
-      Kokkos::push_finalize_hook([] {
+      detail::call_at_end([] {
         instance().kept_.clear();
         instance().hooked_ = false;
       });
