@@ -33,7 +33,7 @@ GALE_EXPORT void give_back(void* data, std::size_t bytes);
 
 /// Has Kokkos call `end` before it ends, for memory that is kept until then. On any thread, where Kokkos' own function
 /// takes one at a time.
-void call_at_end(std::function<void()> end);
+GALE_EXPORT void call_at_end(std::function<void()> end);
 
 }  // namespace detail
 
