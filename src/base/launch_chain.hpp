@@ -57,4 +57,13 @@ void launch_chain(const char* label, const WorkerSpace& space, Offset open, cons
   }
 }
 
+/// What launches have counted in a place of their own: waits for them.
+template <class Counts>
+Counts counted(const WorkerSpace& space, const Array<Counts, WorkerMemory>& counts) {
+  Counts here;
+  Kokkos::deep_copy(space, Kokkos::View<Counts*, HostMemory, Kokkos::MemoryUnmanaged>(&here, 1), counts);
+  space.fence();
+  return here;
+}
+
 }  // namespace gale::detail

@@ -134,12 +134,12 @@ std::vector<std::array<Id, 2>> FallingEdges::fall(const std::vector<std::array<I
   reserve(count);
   parallel_for("GALE::begin_edges", space_, count, BeginEdges{{edges_, keys_, found_}, ends_});
   launch_chain("GALE::fall_from_open", space_, count, FallFrom{edges_, keys_, found_});
-  take_counts();
+  counts_ = counted(space_, found_.counts);
   while (const Offset open = counts_.open - counts_.part.end) {
     stop_if_asked();
     reserve(open);
     launch_chain("GALE::fall_from_open", space_, open, FallFrom{edges_, keys_, found_});
-    take_counts();
+    counts_ = counted(space_, found_.counts);
   }
   if (counts_.left == left_before) return {};
   const Array<std::array<Id, 2>, WorkerMemory> left =
@@ -176,13 +176,6 @@ void FallingEdges::make_room_for(Offset more, Offset least) {
   make_room(space_, "GALE::left_edges", found_.left, counts_.left, std::max(counts_.left + more, least / 2));
   make_room(space_, "GALE::open_edges", found_.open, counts_.open, std::max(counts_.open + more, least / 2));
   make_room(space_, found_.all, std::max(counts_.all + more, least));
-}
-
-/// Learns how many kernels have found.
-void FallingEdges::take_counts() {
-  Kokkos::deep_copy(space_, Kokkos::View<FallenCounts*, HostMemory, Kokkos::MemoryUnmanaged>(&counts_, 1),
-                    found_.counts);
-  space_.fence();
 }
 
 }  // namespace gale::detail

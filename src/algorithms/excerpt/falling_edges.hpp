@@ -50,7 +50,6 @@ class FallingEdges {
  private:
   void reserve(Offset threads);
   void make_room_for(Offset more, Offset least);
-  void take_counts();
 
   const WorkerSpace space_{};
   const EdgesInKernels edges_;

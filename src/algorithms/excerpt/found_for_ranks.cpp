@@ -80,7 +80,7 @@ void FoundFor::set_cell_steps(std::vector<std::array<Id, 2>> steps, const CellRe
   parallel_for("GALE::reached_cells", HostExecutionSpace(), count, [&](Offset i) {
     auto& [cell, next] = cell_steps[i];
     cell = place_of(cell);
-    next = next >= 0 ? place_of(next) : next == no_id ? no_id : step_outside(corner_outside(next));
+    next = step_to(next, place_of);
   });
 }
 

@@ -37,19 +37,21 @@ struct FoundFor : ReachedLists<FoundList> {
   /// Adds the step from a cell to its successor, or of one that has none; returns the cell's place.
   Id add_step(Id cell, Id next, const CellReader& corners_of, const PathSimplices& simplices) {
     const Id place = place_of(cell, corners_of, simplices);
-    Id there = no_id;
-    if (next >= 0) {
-      there = place_of(next, corners_of, simplices);
-    } else if (next != no_id) {
-      there = step_outside(corner_outside(next));
-    }
-    cell_steps.push_back({place, there});
+    cell_steps.push_back({place, step_to(next, [&](Id one) { return place_of(one, corners_of, simplices); })});
     return place;
   }
 
   /// Has these steps, of cells by their ids, and no others: instead of add_step() and place_of().
   void set_cell_steps(std::vector<std::array<Id, 2>> steps, const CellReader& corners_of,
                       const PathSimplices& simplices);
+
+ private:
+  /// What a step says of a cell's successor, which may be outside or none.
+  template <class PlaceOf>
+  static Id step_to(Id next, const PlaceOf& place_of) {
+    if (next >= 0) return place_of(next);
+    return next == no_id ? no_id : step_outside(corner_outside(next));
+  }
 };
 
 /// What a rank has found for all that ask.

@@ -132,9 +132,7 @@ class Connectors {
       const Offset open = counts_.open - counts_.part.end;
       reserve(counts_.part.end, open, most_edges);
       launch_chain("GALE::grow_walls", space_, open, GrowWalls{rows_, found_});
-      Kokkos::deep_copy(space_, Kokkos::View<WallCounts*, HostMemory, Kokkos::MemoryUnmanaged>(&counts_, 1),
-                        found_.counts);
-      space_.fence();
+      counts_ = counted(space_, found_.counts);
       if (counts_.edges > most_edges) throw OutOfMemory("walls of more than " + std::to_string(most_edges) + " edges");
     }
     const GrownWalls grown{rows_, found_, WallTable(space_, found_.edges.places()),
