@@ -127,10 +127,10 @@ struct CountedWord {
   std::uint64_t bits = 0;
   Id before = 0;
 
-  bool has(int place) const { return (bits >> place & 1) != 0; }
+  KOKKOS_FUNCTION bool has(int place) const { return (bits >> place & 1) != 0; }
 
   /// How many members come before a place of these.
-  Id rank(int place) const { return before + count_bits(bits & ((std::uint64_t(1) << place) - 1)); }
+  KOKKOS_FUNCTION Id rank(int place) const { return before + count_bits(bits & ((std::uint64_t(1) << place) - 1)); }
 
   void insert(int place) { bits |= std::uint64_t(1) << place; }
 };

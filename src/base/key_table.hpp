@@ -41,21 +41,30 @@ class KeyTable {
 
   /// The place of a key; `is_new` says whether it was inserted now.
   KOKKOS_FUNCTION std::uint64_t insert(std::uint64_t key, bool& is_new) const {
-    return insert(key, first_there(key), is_new);
+    return insert(key, claim(key, first_there(key)), is_new);
   }
 
-  /// Reads what is where a key is looked for first: with that read before, keys that are inserted one after the other
-  /// are waited for together.
+  // A key is inserted in three steps, so that a kernel waits once for each step of several keys.
+
+  /// Reads what is where a key is looked for first.
   KOKKOS_FUNCTION std::uint64_t first_there(std::uint64_t key) const { return atomic_read(&keys_(first_place(key))); }
 
-  /// Inserts a key likewise, when first_there(key) was `there`.
+  /// Claims that place for a key, when first_there(key) was `there`. Returns what was there before: none where it is the
+  /// key's now.
+  KOKKOS_FUNCTION std::uint64_t claim(std::uint64_t key, std::uint64_t there) const {
+    return there == none ? atomic_compare_exchange(&keys_(first_place(key)), none, key) : there;
+  }
+
+  /// Inserts a key, when claim(key) was `there`.
   KOKKOS_FUNCTION std::uint64_t insert(std::uint64_t key, std::uint64_t there, bool& is_new) const {
-    for (std::uint64_t place = first_place(key);; there = atomic_read(&keys_(place))) {
-      if (there == none) there = atomic_compare_exchange(&keys_(place), none, key);
-      is_new = there == none;
-      if (is_new || there == key) return place;
+    std::uint64_t place = first_place(key);
+    while (there != none && there != key) {
       place = next_place(place);
+      there = atomic_read(&keys_(place));
+      if (there == none) there = atomic_compare_exchange(&keys_(place), none, key);
     }
+    is_new = there == none;
+    return place;
   }
 
   /// The place of a key that was inserted by an earlier kernel; none if there is none.

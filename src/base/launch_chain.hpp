@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <utility>
 
 #include <gale/base/memory.hpp>
 #include <gale/base/parallel.hpp>
@@ -41,14 +42,30 @@ struct GoOn {
   }
 };
 
+/// How many launches a chain has: of entries that are few, which may soon come to nothing, two at first, and as many
+/// again in each chain that goes on from there.
+class ChainLength {
+ public:
+  static constexpr int most = 8;
+
+  explicit ChainLength(Offset entries) : next_(entries < few ? 2 : most) {}
+
+  int next() { return std::exchange(next_, std::min(2 * next_, most)); }
+
+ private:
+  static constexpr Offset few = 1 << 12;
+
+  int next_;
+};
+
 /// Launches a kernel again and again, each time on what has been left open by then, without waiting in between: the
 /// device says how much that is, and for how many steps there is room. A kernel has part(), open(), which is how many
 /// entries its list has, room() for so many more, and go_on(entry, steps), which finds StepsOfLaunch::found_in(steps)
 /// at most. `open` of the entries are known to be open at first, or about that many. Afterwards all before part().end
 /// are done; where there are more, they want room, or another chain.
 template <class Kernel>
-void launch_chain(const char* label, const WorkerSpace& space, Offset open, const Kernel& kernel) {
-  constexpr int launches = 8;
+void launch_chain(const char* label, const WorkerSpace& space, Offset open, const Kernel& kernel,
+                  int launches = ChainLength::most) {
   constexpr Offset fewest_threads = 1 << 13, most_threads = 1 << 17;
   const Offset threads = std::clamp(2 * open, fewest_threads, most_threads);
   for (int i = 0; i < launches; ++i) {

@@ -141,7 +141,9 @@ TEST(MorseSmaleComplex, has_the_same_connectors_however_many_walls_grow_side_by_
   expected.connectors = detail::descending_surfaces(gradient, critical, places, false, true, 2).connectors;
   ASSERT_GT(expected.connectors.count(), 10'000);
   for (const Offset together : {1, 100, 10'000, 100'000'000}) {
-    found.connectors = detail::device_connectors(detail::wall_rows(gradient), critical.triangles, places, together);
+    auto connectors = detail::device_connectors(detail::wall_rows(gradient), critical.triangles, places, together);
+    connectors.bring();
+    found.connectors = std::move(connectors.paths);
     EXPECT_TRUE(equal(found, expected)) << together;
   }
 }

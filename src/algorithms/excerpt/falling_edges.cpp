@@ -39,16 +39,22 @@ struct FallFrom {
     return {high, low, edges.owned.has(high) ? edges(high, low).third : no_id};
   }
 
-  /// Comes to an edge, for which found.all.first_there() was `there`. Returns it if others fall from it and it is new,
-  /// else none.
-  KOKKOS_FUNCTION FallenEdge come_to(const FallenEdge& edge, std::uint64_t there, Offset& count) const {
-    const bool is_here = edges.owned.has(edge.high);
-    if (is_here && edge.third == edge_has_vertex) return no_edge();
+  /// Whether nothing falls from an edge, nor is it to be told.
+  KOKKOS_FUNCTION bool ends_at(const FallenEdge& edge) const { return edge.third == edge_has_vertex; }
+
+  /// Claims an edge's place among all, by what was there.
+  KOKKOS_FUNCTION std::uint64_t claim(const FallenEdge& edge, std::uint64_t key, std::uint64_t there) const {
+    return ends_at(edge) ? key : found.all.claim(key, there);
+  }
+
+  /// Comes to an edge, for which claim() was `there`. Returns it if others fall from it and it is new, else none.
+  KOKKOS_FUNCTION FallenEdge come_to(const FallenEdge& edge, std::uint64_t key, std::uint64_t there,
+                                     Offset& count) const {
     bool is_new = false;
-    found.all.insert(pair_key(edge.high, edge.low), there, is_new);
+    found.all.insert(key, there, is_new);
     if (!is_new) return no_edge();
     ++count;
-    if (is_here) return edge.third < 0 ? no_edge() : edge;
+    if (edges.owned.has(edge.high)) return edge.third < 0 ? no_edge() : edge;
     found.left(atomic_add(&found.counts(0).left, Offset(1))) = {edge.high, edge.low};
     return no_edge();
   }
@@ -60,10 +66,13 @@ struct FallFrom {
     FallenEdge edge = found.open(i);
     Offset count = 0;
     for (int step = 0; step < steps && edge.high != no_id && open.has_room_for(2); ++step) {
-      const std::uint64_t key = ordered(edge.high, edge.third), other_key = ordered(edge.low, edge.third);
-      const std::uint64_t there = found.all.first_there(key), other_there = found.all.first_there(other_key);
+      const std::uint64_t key = pair_key(edge.high, edge.third), other_key = ordered(edge.low, edge.third);
+      std::uint64_t there = found.all.first_there(key), other_there = found.all.first_there(other_key);
       const FallenEdge side = look_at(key), other_side = look_at(other_key);
-      const FallenEdge one = come_to(side, there, count), other = come_to(other_side, other_there, count);
+      there = claim(side, key, there);
+      other_there = claim(other_side, other_key, other_there);
+      const FallenEdge one = come_to(side, key, there, count);
+      const FallenEdge other = come_to(other_side, other_key, other_there, count);
       if (one.high != no_id && other.high != no_id) open.push(other);
       edge = one.high != no_id ? one : other;
       if (edge.high == no_id && !open.is_empty()) edge = open.pop();
@@ -90,7 +99,8 @@ struct BeginEdges {
     const LaneMask lanes = lanes_here();
     Offset count = 0;
     const std::uint64_t key = pair_key(ends(2 * i), ends(2 * i + 1));
-    const FallenEdge edge = fall.come_to(fall.look_at(key), fall.found.all.first_there(key), count);
+    const FallenEdge at = fall.look_at(key);
+    const FallenEdge edge = fall.come_to(at, key, fall.claim(at, key, fall.found.all.first_there(key)), count);
     ThreadStack<FallenEdge, 1> open;
     if (edge.high != no_id) open.push(edge);
     meet(lanes);
@@ -133,12 +143,13 @@ std::vector<std::array<Id, 2>> FallingEdges::fall(const std::vector<std::array<I
   copy_to_device(ends_.data(), edges[0].data(), edges.size() * sizeof(edges[0]));
   reserve(count);
   parallel_for("GALE::begin_edges", space_, count, BeginEdges{{edges_, keys_, found_}, ends_});
-  launch_chain("GALE::fall_from_open", space_, count, FallFrom{edges_, keys_, found_});
+  ChainLength length(count);
+  launch_chain("GALE::fall_from_open", space_, count, FallFrom{edges_, keys_, found_}, length.next());
   counts_ = counted(space_, found_.counts);
   while (const Offset open = counts_.open - counts_.part.end) {
     stop_if_asked();
     reserve(open);
-    launch_chain("GALE::fall_from_open", space_, open, FallFrom{edges_, keys_, found_});
+    launch_chain("GALE::fall_from_open", space_, open, FallFrom{edges_, keys_, found_}, length.next());
     counts_ = counted(space_, found_.counts);
   }
   if (counts_.left == left_before) return {};

@@ -11,6 +11,14 @@
 
 namespace gale::detail {
 
+/// The numbers of a NumberedSet's members, wherever its words lie. Owns nothing.
+struct MemberNumbers {
+  const CountedWord* words;
+
+  /// The number of a member.
+  KOKKOS_FUNCTION Id operator[](Id place) const { return words[static_cast<std::size_t>(place) >> 6].rank(place & 63); }
+};
+
 /// A set of places, a bit each. Once all members are there it numbers them in their order.
 class NumberedSet {
  public:
@@ -22,6 +30,11 @@ class NumberedSet {
     std::uint64_t& bits = words_[static_cast<std::size_t>(place) >> 6].bits;
     const std::uint64_t bit = std::uint64_t(1) << (place & 63);
     return (atomic_read(&bits) & bit) == 0 && (atomic_or(&bits, bit) & bit) == 0;
+  }
+
+  /// Adds places that are bits of words.
+  void insert_bits(const std::vector<std::uint64_t>& bits) {
+    parallel_for("GALE::insert_bits", HostExecutionSpace(), bits.size(), [&](Offset w) { words_[w].bits |= bits[w]; });
   }
 
   /// Has a place that is soon asked for or added brought near.
@@ -62,7 +75,10 @@ class NumberedSet {
   Id count() const { return count_; }
 
   /// The number of a member.
-  Id operator[](Id place) const { return words_[static_cast<std::size_t>(place) >> 6].rank(place & 63); }
+  Id operator[](Id place) const { return MemberNumbers{words_.data()}[place]; }
+
+  /// 64 places each.
+  const std::vector<CountedWord>& words() const { return words_; }
 
  private:
   std::vector<CountedWord> words_;

@@ -7,6 +7,7 @@
 #include <gale/algorithms/excerpt/excerpt_mesh.hpp>
 #include <gale/algorithms/excerpt/numbered_set.hpp>
 #include <gale/algorithms/excerpt/passed_simplices.hpp>
+#include <gale/algorithms/excerpt/triangle_names.hpp>
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/base/error.hpp>
 #include <gale/base/ordered.hpp>
@@ -16,6 +17,13 @@
 namespace gale::detail {
 
 namespace {
+
+/// Has each of a list be what rename(it) says.
+template <class T, class Rename>
+void rename_all(std::vector<T>& list, const Rename& rename) {
+  parallel_for("GALE::name_in_excerpt", HostExecutionSpace(), list.size(),
+               [&](Offset i) { list[i] = rename(list[i]); });
+}
 
 /// The simplices of a wider gradient that are passed, and their numbers in the excerpt: both kinds by global id. Where
 /// cells have as many corners (four each) as there are vertices, or more, all vertices are taken: to leave some out
@@ -30,12 +38,14 @@ class PassedSimplices {
     if (4 * static_cast<Offset>(cell_of_.size()) < wider_->vertices()) mark_vertices(wider.critical(), descending);
   }
 
-  /// Adds what is on connectors. Afterwards vertices have numbers.
-  void finish(const Separatrices<TriangleVertices>& connectors) {
-    if (!vertices_) return;
-    mark_all_of(connectors.cells);
-    vertices_->number();
-    vertex_count_ = vertices_->count();
+  /// Adds what is on connectors, and returns these with numbers. Afterwards vertices have numbers.
+  Separatrices<TriangleVertices> finish(FoundConnectors connectors) {
+    if (vertices_) {
+      mark_all_of(connectors);
+      vertices_->number();
+      vertex_count_ = vertices_->count();
+    }
+    return numbered(std::move(connectors));
   }
 
   Id number(Id vertex) const { return vertices_ ? (*vertices_)[wider_->names()[vertex]] : wider_->names()[vertex]; }
@@ -178,6 +188,29 @@ class PassedSimplices {
     });
   }
 
+  /// Marks those of connectors: the device those that it has, if there is room.
+  void mark_all_of(FoundConnectors& connectors) {
+    try {
+      const auto& there = connectors.triangles;
+      if (!there.empty()) vertices_->insert_bits(names_passed(there, connectors.names, vertices_->words().size()));
+    } catch (const OutOfMemory&) {
+      connectors.bring();
+    }
+    mark_all_of(connectors.paths.cells);
+  }
+
+  /// Numbers those of connectors likewise.
+  Separatrices<TriangleVertices> numbered(FoundConnectors connectors) const {
+    try {
+      rename_vertices(connectors.triangles, connectors.names, vertices_ ? &*vertices_ : nullptr);
+    } catch (const OutOfMemory&) {
+      connectors.bring();
+    }
+    rename_all(connectors.paths.cells, [&](const TriangleVertices& triangle) { return numbers(triangle); });
+    connectors.bring();
+    return std::move(connectors.paths);
+  }
+
   /// Marks the vertices of what is passed alone.
   void mark_vertices(const CriticalSimplices& critical, const Separatrices<Id>& descending) {
     vertices_.emplace(wider_->vertices());
@@ -221,21 +254,15 @@ class PassedSimplices {
   std::vector<Id> number_of_cell_;  ///< by name
 };
 
-/// Has each of a list be what rename(it) says.
-template <class T, class Rename>
-void rename_all(std::vector<T>& list, const Rename& rename) {
-  parallel_for("GALE::name_in_excerpt", HostExecutionSpace(), list.size(),
-               [&](Offset i) { list[i] = rename(list[i]); });
-}
-
 }  // namespace
 
-void name_in_excerpt(const WiderGradient& wider, const std::function<Separatrices<TriangleVertices>()>& find_connectors,
+void name_in_excerpt(const WiderGradient& wider, const std::function<FoundConnectors()>& find_connectors,
                      MorseSmaleComplex& complex) {
   std::shared_ptr<PassedSimplices> passed;
+  FoundConnectors connectors;
   const auto mark = [&] { passed = std::make_shared<PassedSimplices>(wider, complex.descending, complex.ascending); };
   const auto connect = [&] {
-    if (find_connectors) complex.connectors = find_connectors();
+    if (find_connectors) connectors = find_connectors();
   };
   if (have_device && find_connectors && complex.gradient.store().is_from_kernels()) {
     meanwhile(mark, connect);
@@ -243,7 +270,7 @@ void name_in_excerpt(const WiderGradient& wider, const std::function<Separatrice
     mark();
     connect();
   }
-  passed->finish(complex.connectors);
+  complex.connectors = passed->finish(std::move(connectors));
   const bool is_grid = complex.gradient.mesh().grid() != nullptr;
   std::optional<Mesh> mesh;
   if (!is_grid) mesh = passed->make_mesh();
@@ -258,7 +285,6 @@ void name_in_excerpt(const WiderGradient& wider, const std::function<Separatrice
   rename_all(complex.critical.cells, cell);
   rename_all(complex.critical.star, cell);
   rename_all(complex.descending.cells, vertex);
-  rename_all(complex.connectors.cells, simplex);
   rename_all(complex.ascending.cells, cell);
   const auto excerpt_of = [](const VertexOrder& order, const CriticalSimplices& critical) {
     return DiscreteGradient(std::make_shared<GradientStore>(order, critical));

@@ -4,6 +4,7 @@
 
 #include <gale/algorithms/excerpt/wider_gradient.hpp>
 #include <gale/algorithms/morse_smale.hpp>
+#include <gale/algorithms/morse_smale/parts.hpp>
 
 namespace gale::detail {
 
@@ -13,7 +14,7 @@ namespace gale::detail {
 /// made when somebody first asks for it. On this rank alone; throws what making a mesh does. The connectors are those
 /// that `find_connectors` finds, if there is such a function; while it has kernels do so the host names what is on
 /// paths.
-void name_in_excerpt(const WiderGradient& wider, const std::function<Separatrices<TriangleVertices>()>& find_connectors,
+void name_in_excerpt(const WiderGradient& wider, const std::function<FoundConnectors()>& find_connectors,
                      MorseSmaleComplex& complex);
 
 }  // namespace gale::detail

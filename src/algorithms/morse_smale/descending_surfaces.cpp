@@ -155,13 +155,15 @@ void ConnectorsHere::follow_here(const DiscreteGradient& gradient, const Critica
 
 ConnectorsHere::~ConnectorsHere() = default;
 
-Separatrices<TriangleVertices> ConnectorsHere::finish(const WiderGradient& wider, const CriticalPlaces& places,
-                                                      const std::vector<Id>& edge_places) {
+FoundConnectors ConnectorsHere::finish(const WiderGradient& wider, const CriticalPlaces& places,
+                                       const std::vector<Id>& edge_places) {
   std::vector<std::pair<Id, DescendingWall::Part>> unfinished;
   if (are_by_kernels_) {
     try {
-      return device_connectors(WiderRows(wider).rows(), triangles_, places);
+      rows_ = std::make_unique<WiderRows>(wider);
+      return device_connectors(rows_->rows(), triangles_, places);
     } catch (const OutOfMemory&) {
+      rows_.reset();
       for (std::size_t i = 0; i < triangles_.size(); ++i) unfinished.push_back({static_cast<Id>(i), {}});
     }
   }
@@ -182,7 +184,7 @@ Separatrices<TriangleVertices> ConnectorsHere::finish(const WiderGradient& wider
         tracer.add_connectors(places, place);
       });
   for (auto& tracer : tracers) found_->tracers.push_back(std::move(tracer));
-  return gathered_connectors(found_->tracers, triangles_.size());
+  return {gathered_connectors(found_->tracers, triangles_.size()), {}, {}};
 }
 
 }  // namespace gale::detail

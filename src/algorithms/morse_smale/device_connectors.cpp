@@ -62,7 +62,7 @@ void append(std::vector<T>& entries, const InWorkers<T>& more) {
 /// Appends the path from each of these rims up to the wall's critical triangle, which it includes. Sources and
 /// destinations are the caller's.
 void append_paths(const WorkerSpace& space, const GrownWalls& walls, const std::vector<WallRim>& from,
-                  Separatrices<TriangleVertices>& paths) {
+                  FoundConnectors& found) {
   const Offset count = static_cast<Offset>(from.size());
   const auto rims = in_memory<WorkerMemory>(Given<WallRim>(from.data(), from.size()));
   const auto begin = allocate<InWorkers<Offset>>("GALE::connector_begin", count + 1);
@@ -90,10 +90,10 @@ void append_paths(const WorkerSpace& space, const GrownWalls& walls, const std::
       });
   space.fence();
   const auto begin_here = on_host(begin);
-  const Offset before = paths.begin.back();
-  for (Offset i = 0; i < count; ++i) paths.begin.push_back(before + begin_here(i + 1));
-  append(paths.is_only, is_only);
-  append(paths.cells, cells);
+  const Offset before = found.paths.begin.back();
+  for (Offset i = 0; i < count; ++i) found.paths.begin.push_back(before + begin_here(i + 1));
+  append(found.paths.is_only, is_only);
+  found.triangles.push_back(cells);
 }
 
 /// Finds connectors in the descending walls of critical triangles, of which some grow side by side. Time and memory
@@ -103,6 +103,7 @@ class Connectors {
   Connectors(const WallRows& rows, const std::vector<TriangleVertices>& critical, const CriticalPlaces& places,
              Offset most_together)
       : critical_(critical), places_(places), most_together_(most_together), rows_(rows) {
+    found.names = rows.names;
     found_.keys.bits = bits_for(rows.edges());
     found_.counts = allocate<InWorkers<WallCounts>>("GALE::wall_counts", 1);
   }
@@ -116,13 +117,14 @@ class Connectors {
         return;
       } catch (const OutOfMemory&) {
         if (size == 1) throw;
+        found.bring();
       }
     }
     add(begin, begin + size / 2);
     add(begin + size / 2, end);
   }
 
-  Separatrices<TriangleVertices> paths;
+  FoundConnectors found;
 
  private:
   GrownWalls grow(Id first_wall, Id count, Offset most_edges) {
@@ -206,7 +208,8 @@ class Connectors {
     auto sorted = unwritten<WallRim>(rims.size());
     parallel_for("GALE::sorted_rims", HostExecutionSpace(), counts_.rims,
                  [&](Offset i) { sorted[i] = rims[i].second; });
-    append_paths(space_, walls, sorted, paths);
+    append_paths(space_, walls, sorted, found);
+    Separatrices<TriangleVertices>& paths = found.paths;
     const std::size_t before = paths.sources.size();
     paths.sources.resize(before + rims.size());
     paths.destinations.resize(before + rims.size());
@@ -228,11 +231,16 @@ class Connectors {
 
 }  // namespace
 
-Separatrices<TriangleVertices> device_connectors(const WallRows& rows, const std::vector<TriangleVertices>& critical,
-                                                 const CriticalPlaces& places, Offset most_together) {
+void FoundConnectors::bring() {
+  for (const auto& part : triangles) append(paths.cells, part);
+  triangles.clear();
+}
+
+FoundConnectors device_connectors(const WallRows& rows, const std::vector<TriangleVertices>& critical,
+                                  const CriticalPlaces& places, Offset most_together) {
   Connectors connectors(rows, critical, places, most_together);
   if (!critical.empty()) connectors.add(0, static_cast<Id>(critical.size()));
-  return std::move(connectors.paths);
+  return std::move(connectors.found);
 }
 
 }  // namespace gale::detail

@@ -116,6 +116,8 @@ struct GrowWalls {
         sides[count] = side;
         there[count++] = sink.edges.first_there(sink.keys(triangle.wall, side.edge.number));
       });
+      for (int k = 0; k < count; ++k)
+        there[k] = sink.edges.claim(sink.keys(triangle.wall, sides[k].edge.number), there[k]);
       std::uint32_t next = none;
       WallTriangle next_triangle{};
       for (int k = 0; k < count; ++k) {
@@ -143,7 +145,7 @@ struct GrowWalls {
  private:
   static constexpr std::uint32_t none = ~std::uint32_t(0);
 
-  /// Comes to what is behind an edge, by its number, where the table's first_there() was `there`. Returns the number of
+  /// Comes to what is behind an edge, by its number, where the table's claim() was `there`. Returns the number of
   /// a triangle that the wall grows on from, or none.
   KOKKOS_FUNCTION std::uint32_t come_to(const WallTriangle& behind, Offset edge, std::uint64_t there, Offset& edges,
                                         Offset& rims) const {

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include <gale/algorithms/excerpt/vertex_names.hpp>
 #include <gale/algorithms/morse_smale.hpp>
 #include <gale/algorithms/morse_smale/critical_places.hpp>
 #include <gale/algorithms/morse_smale/paths_on_ranks.hpp>
@@ -52,8 +53,19 @@ DescendingSurfaces descending_surfaces(const DiscreteGradient& gradient, const C
                                        const CriticalPlaces& places, bool want_walls, bool want_connectors, int threads,
                                        const TurnedEdges* turned = nullptr, Paths told = Paths::whole);
 
+/// Saddle connectors, the last ones' triangles where kernels found them.
+struct FoundConnectors {
+  Separatrices<TriangleVertices> paths;                          ///< with the triangles of the first ones
+  std::vector<Array<TriangleVertices, WorkerMemory>> triangles;  ///< those that follow, one part after the other
+  VertexNames names{};  ///< of their vertices, for kernels, while there is what these have read
+
+  /// Has paths have all triangles.
+  void bring();
+};
+
 struct WallRows;
 class WiderGradient;
+class WiderRows;
 
 /// The saddle connectors of one rank's 2-saddles: first those of walls inside its part, then the others, when what
 /// these reach elsewhere is known. Until then it keeps these walls as far as they are in the part, up to a triangle a
@@ -68,10 +80,9 @@ class ConnectorsHere {
   /// begin.
   const std::vector<std::array<Id, 2>>& exits() const { return exits_; }
 
-  /// All connectors, once. `wider` has all that is reached from the exits; `places` are those of critical simplices
+  /// All connectors, once, while this is there. `wider` has all that is reached from the exits; `places` are those of critical simplices
   /// there, and edge_places[i] is that of the rank's i-th critical edge.
-  Separatrices<TriangleVertices> finish(const WiderGradient& wider, const CriticalPlaces& places,
-                                        const std::vector<Id>& edge_places);
+  FoundConnectors finish(const WiderGradient& wider, const CriticalPlaces& places, const std::vector<Id>& edge_places);
 
  private:
   struct Found;
@@ -82,6 +93,7 @@ class ConnectorsHere {
   const int threads_;
   const bool are_by_kernels_;
   std::unique_ptr<Found> found_;
+  std::unique_ptr<WiderRows> rows_;
   std::vector<std::array<Id, 2>> exits_;
 };
 
@@ -99,8 +111,8 @@ void separatrices_on_ranks(int threads, PathExits down, PathExits up, MorseSmale
 /// gradient: those that `descending_surfaces` finds, in its order. Walls are made together that have about
 /// `most_together` edges at most, a single one with any number: 2^26 take 4 to 8 GiB, beside the connectors. Throws
 /// OutOfMemory if one doesn't fit there.
-Separatrices<TriangleVertices> device_connectors(const WallRows& rows, const std::vector<TriangleVertices>& critical,
-                                                 const CriticalPlaces& places, Offset most_together = Offset(1) << 26);
+FoundConnectors device_connectors(const WallRows& rows, const std::vector<TriangleVertices>& critical,
+                                  const CriticalPlaces& places, Offset most_together = Offset(1) << 26);
 
 /// Finds the ascending walls of some critical edges, by their places, ascending. A wall goes on from an edge, through
 /// each of the edge's triangles, to the edge that the triangle is paired with. Reads VT of `structure`.

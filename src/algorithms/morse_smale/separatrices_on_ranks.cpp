@@ -35,7 +35,7 @@ void separatrices_on_ranks(int threads, PathExits down, PathExits up, MorseSmale
     complex.descending = paths_along(wider.vertex_successors(), down.starts, [&](Id v) { return places.of_vertex(v); });
     complex.ascending = paths_along(wider.cell_successors(), up.starts, [&](Id t) { return places.of_cell(t); });
     complex.is_own = wider.is_own();
-    std::function<Separatrices<TriangleVertices>()> find_connectors;
+    std::function<FoundConnectors()> find_connectors;
     if (connectors) find_connectors = [&] { return connectors->finish(wider, places, wider.own_edges()); };
     name_in_excerpt(wider, find_connectors, complex);
   });
