@@ -85,40 +85,4 @@ class KeyTable {
   Array<std::uint64_t, WorkerMemory> keys_;
 };
 
-/// Puts the keys of a table into a larger one.
-struct CopyKeys {
-  KeyTable from, to;
-
-  KOKKOS_FUNCTION void operator()(Offset place) const {
-    bool is_new;
-    if (from.at(place) != KeyTable::none) to.insert(from.at(place), is_new);
-  }
-};
-
-/// Has a table have room for `keys` keys in all. Throws OutOfMemory.
-inline void make_room(const WorkerSpace& space, KeyTable& table, Offset keys) {
-  if (keys <= table.room()) return;
-  const KeyTable larger(space, KeyTable::places_for(keys));
-  parallel_for("GALE::copy_keys", space, table.places(), CopyKeys{table, larger});
-  space.fence();
-  table = larger;
-}
-
-/// Has an array in the workers' memory have at least `size` entries, and keeps the first `used`: twice as many as it
-/// had where there is room for that. Throws OutOfMemory.
-template <class T>
-void make_room(const WorkerSpace& space, const char* label, Array<T, WorkerMemory>& array, Offset used, Offset size) {
-  if (size <= static_cast<Offset>(array.extent(0))) return;
-  const auto larger = [&] {
-    try {
-      return allocate<Array<T, WorkerMemory>>(label, std::max(size, 2 * static_cast<Offset>(array.extent(0))));
-    } catch (const OutOfMemory&) {
-      return allocate<Array<T, WorkerMemory>>(label, size);
-    }
-  }();
-  if (used > 0) Kokkos::deep_copy(space, first_of(larger, used), first_of(array, used));
-  space.fence();
-  array = larger;
-}
-
 }  // namespace gale::detail

@@ -74,6 +74,23 @@ void launch_chain(const char* label, const WorkerSpace& space, Offset open, cons
   }
 }
 
+/// Has an array in the workers' memory have at least `size` entries, and keeps the first `used`: twice as many as it
+/// had where there is room for that. Throws OutOfMemory.
+template <class T>
+void make_room(const WorkerSpace& space, const char* label, Array<T, WorkerMemory>& array, Offset used, Offset size) {
+  if (size <= static_cast<Offset>(array.extent(0))) return;
+  const auto larger = [&] {
+    try {
+      return allocate<Array<T, WorkerMemory>>(label, std::max(size, 2 * static_cast<Offset>(array.extent(0))));
+    } catch (const OutOfMemory&) {
+      return allocate<Array<T, WorkerMemory>>(label, size);
+    }
+  }();
+  if (used > 0) Kokkos::deep_copy(space, first_of(larger, used), first_of(array, used));
+  space.fence();
+  array = larger;
+}
+
 /// What launches have counted in a place of their own: waits for them.
 template <class Counts>
 Counts counted(const WorkerSpace& space, const Array<Counts, WorkerMemory>& counts) {

@@ -3,6 +3,7 @@
 
 #include <gale/algorithms/excerpt/falling_edges.hpp>
 #include <gale/base/error.hpp>
+#include <gale/base/sort.hpp>
 #include <gale/base/stop.hpp>
 #include <gale/base/transfer.hpp>
 
@@ -25,37 +26,35 @@ struct FallFrom {
 
   /// For how many more edges there is room in all that keep them.
   KOKKOS_FUNCTION Offset room() const {
-    const FallenCounts& counts = found.counts(0);
-    const Offset of_all = found.all.room() - counts.all;
-    const Offset of_open = static_cast<Offset>(found.open.extent(0)) - counts.open;
-    const Offset of_left = static_cast<Offset>(found.left.extent(0)) - counts.left;
-    const Offset of_lists = of_open < of_left ? of_open : of_left;
-    return of_all < of_lists ? of_all : of_lists;
+    const Offset of_open = static_cast<Offset>(found.open.extent(0)) - found.counts(0).open;
+    const Offset of_left = static_cast<Offset>(found.left.extent(0)) - found.counts(0).left;
+    return of_open < of_left ? of_open : of_left;
   }
 
-  /// An edge by its key, and what it is paired with: no_id where another rank knows.
-  KOKKOS_FUNCTION FallenEdge look_at(std::uint64_t key) const {
-    const Id high = pair_first(key), low = pair_second(key);
-    return {high, low, edges.owned.has(high) ? edges(high, low).third : no_id};
+  /// An edge, and what it is paired with: no_id where another rank knows.
+  struct Side {
+    Id high, low;
+    PairedEdge edge;
+  };
+  KOKKOS_FUNCTION Side look_at(std::uint64_t ends) const {
+    const Id high = pair_first(ends), low = pair_second(ends);
+    return {high, low, edges.owned.has(high) ? edges(high, low) : PairedEdge{0, no_id}};
   }
 
-  /// Whether nothing falls from an edge, nor is it to be told.
-  KOKKOS_FUNCTION bool ends_at(const FallenEdge& edge) const { return edge.third == edge_has_vertex; }
-
-  /// Claims an edge's place among all, by what was there.
-  KOKKOS_FUNCTION std::uint64_t claim(const FallenEdge& edge, std::uint64_t key, std::uint64_t there) const {
-    return ends_at(edge) ? key : found.all.claim(key, there);
+  /// Whether an edge is passed now, or left to another rank. Sides are all asked before the first answer is looked at,
+  /// so that these are waited for together.
+  KOKKOS_FUNCTION bool is_new(const Side& side) const {
+    if (!edges.owned.has(side.high)) return true;
+    return side.edge.third != edge_has_vertex && found.passed.insert(side.edge.number);
   }
 
-  /// Comes to an edge, for which claim() was `there`. Returns it if others fall from it and it is new, else none.
-  KOKKOS_FUNCTION FallenEdge come_to(const FallenEdge& edge, std::uint64_t key, std::uint64_t there,
-                                     Offset& count) const {
-    bool is_new = false;
-    found.all.insert(key, there, is_new);
-    if (!is_new) return no_edge();
-    ++count;
-    if (edges.owned.has(edge.high)) return edge.third < 0 ? no_edge() : edge;
-    found.left(atomic_add(&found.counts(0).left, Offset(1))) = {edge.high, edge.low};
+  /// Comes to an edge that is_new(). Returns it if others fall from it, else none.
+  KOKKOS_FUNCTION FallenEdge come_to(const Side& side, Offset& count) const {
+    if (edges.owned.has(side.high)) {
+      ++count;
+      return side.edge.third < 0 ? no_edge() : FallenEdge{side.high, side.low, side.edge.third};
+    }
+    found.left(atomic_add(&found.counts(0).left, Offset(1))) = {side.high, side.low};
     return no_edge();
   }
 
@@ -66,13 +65,10 @@ struct FallFrom {
     FallenEdge edge = found.open(i);
     Offset count = 0;
     for (int step = 0; step < steps && edge.high != no_id && open.has_room_for(2); ++step) {
-      const std::uint64_t key = pair_key(edge.high, edge.third), other_key = ordered(edge.low, edge.third);
-      std::uint64_t there = found.all.first_there(key), other_there = found.all.first_there(other_key);
-      const FallenEdge side = look_at(key), other_side = look_at(other_key);
-      there = claim(side, key, there);
-      other_there = claim(other_side, other_key, other_there);
-      const FallenEdge one = come_to(side, key, there, count);
-      const FallenEdge other = come_to(other_side, other_key, other_there, count);
+      const Side side = look_at(pair_key(edge.high, edge.third)), other_side = look_at(ordered(edge.low, edge.third));
+      const bool is_side_new = is_new(side), is_other_new = is_new(other_side);
+      const FallenEdge one = is_side_new ? come_to(side, count) : no_edge();
+      const FallenEdge other = is_other_new ? come_to(other_side, count) : no_edge();
       if (one.high != no_id && other.high != no_id) open.push(other);
       edge = one.high != no_id ? one : other;
       if (edge.high == no_id && !open.is_empty()) edge = open.pop();
@@ -80,7 +76,7 @@ struct FallFrom {
     if (edge.high != no_id) open.push(edge);
     meet(lanes);
     open.append_to(found.open, &found.counts(0).open);
-    add_in_turn(&found.counts(0).all, count);
+    add_in_turn(&found.counts(0).passed, count);
   }
 
  private:
@@ -98,31 +94,32 @@ struct BeginEdges {
   KOKKOS_FUNCTION void operator()(Offset i) const {
     const LaneMask lanes = lanes_here();
     Offset count = 0;
-    const std::uint64_t key = pair_key(ends(2 * i), ends(2 * i + 1));
-    const FallenEdge at = fall.look_at(key);
-    const FallenEdge edge = fall.come_to(at, key, fall.claim(at, key, fall.found.all.first_there(key)), count);
+    const FallFrom::Side side = fall.look_at(pair_key(ends(2 * i), ends(2 * i + 1)));
+    const FallenEdge edge = fall.is_new(side) ? fall.come_to(side, count) : no_edge();
     ThreadStack<FallenEdge, 1> open;
     if (edge.high != no_id) open.push(edge);
     meet(lanes);
     FallenCounts& counts = fall.found.counts(0);
     open.append_to(fall.found.open, &counts.open);
-    add_in_turn(&counts.all, count);
+    add_in_turn(&counts.passed, count);
   }
 };
 
-/// Puts the edges of a table that this rank follows in a row, in no order.
+/// Puts the edges of an owned vertex that were passed in a row, in no order.
 struct PutPassed {
   EdgesInKernels edges;
-  KeyTable all;
-  Array<FallenEdge, WorkerMemory> passed;
+  NumberSet passed;
+  Array<FallenEdge, WorkerMemory> put;
   Array<Offset, WorkerMemory> count;  ///< one
 
-  KOKKOS_FUNCTION void operator()(Offset place) const {
-    const std::uint64_t key = all.at(place);
-    if (key == KeyTable::none) return;
-    const Id high = pair_first(key), low = pair_second(key);
-    if (!edges.owned.has(high)) return;
-    passed(atomic_add(&count(0), Offset(1))) = {high, low, edges(high, low).third};
+  KOKKOS_FUNCTION void operator()(Offset i) const {
+    const Id high = edges.owned.first + static_cast<Id>(i);
+    const Offset first = edges.first_number(high);
+    for (int k = 0; k < edges.numbers(high); ++k) {
+      if (!passed.has(first + k)) continue;
+      const Id low = edges.low(high, k);
+      put(atomic_add(&count(0), Offset(1))) = {high, low, edges(high, low).third};
+    }
   }
 };
 
@@ -134,6 +131,7 @@ FallingEdges::FallingEdges(const DiscreteGradient& gradient, bool expects_all)
       keys_(gradient.order().keys_in<WorkerMemory>()) {
   found_.counts = allocate<decltype(found_.counts)>("GALE::fallen_counts", 1);
   fill("GALE::fallen_counts", space_, found_.counts, FallenCounts());
+  found_.passed = NumberSet("GALE::passed_edges", space_, edges_.count);
 }
 
 std::vector<std::array<Id, 2>> FallingEdges::fall(const std::vector<std::array<Id, 2>>& edges) {
@@ -155,15 +153,17 @@ std::vector<std::array<Id, 2>> FallingEdges::fall(const std::vector<std::array<I
   if (counts_.left == left_before) return {};
   const Array<std::array<Id, 2>, WorkerMemory> left =
       Kokkos::subview(found_.left, std::make_pair(std::size_t(left_before), std::size_t(counts_.left)));
-  return vector_of(left);
+  auto left_here = vector_of(left);
+  sort_distinct("GALE::left_edges", left_here);
+  return left_here;
 }
 
 std::vector<std::array<Id, 3>> FallingEdges::passed() const {
-  const Offset count = counts_.all - counts_.left;
+  const Offset count = counts_.passed;
   const auto there = allocate<Array<FallenEdge, WorkerMemory>>("GALE::fallen_edges", count);
   const auto put = allocate<Array<Offset, WorkerMemory>>("GALE::fallen_edges_put", 1);
   fill("GALE::fallen_edges_put", space_, put, Offset(0));
-  parallel_for("GALE::fallen_edges", space_, found_.all.places(), PutPassed{edges_, found_.all, there, put});
+  parallel_for("GALE::fallen_edges", space_, edges_.owned.size(), PutPassed{edges_, found_.passed, there, put});
   space_.fence();
   const auto here = on_host(there);
   std::vector<std::array<Id, 3>> all(count);
@@ -186,7 +186,6 @@ void FallingEdges::reserve(Offset threads) {
 void FallingEdges::make_room_for(Offset more, Offset least) {
   make_room(space_, "GALE::left_edges", found_.left, counts_.left, std::max(counts_.left + more, least / 2));
   make_room(space_, "GALE::open_edges", found_.open, counts_.open, std::max(counts_.open + more, least / 2));
-  make_room(space_, found_.all, std::max(counts_.all + more, least));
 }
 
 }  // namespace gale::detail

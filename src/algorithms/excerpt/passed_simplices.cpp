@@ -192,7 +192,7 @@ class PassedSimplices {
   void mark_all_of(FoundConnectors& connectors) {
     try {
       const auto& there = connectors.triangles;
-      if (!there.empty()) vertices_->insert_bits(names_passed(there, connectors.names, vertices_->words().size()));
+      if (!there.empty()) vertices_->insert_bits(names_passed(there, connectors.names, wider_->vertices()));
     } catch (const OutOfMemory&) {
       connectors.bring();
     }

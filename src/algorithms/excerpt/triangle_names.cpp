@@ -1,5 +1,5 @@
 #include <gale/algorithms/excerpt/triangle_names.hpp>
-#include <gale/base/atomic.hpp>
+#include <gale/base/number_set.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/transfer.hpp>
 
@@ -14,18 +14,13 @@ Vertices vertices_of(const Array<TriangleVertices, WorkerMemory>& triangles) {
   return Vertices(reinterpret_cast<Id*>(triangles.data()), 3 * triangles.extent(0));
 }
 
-/// Marks a vertex's name. Triangles side by side have most in common: bits that are there already are left alone.
+/// Marks a vertex's name, as triangles side by side do again.
 struct MarkName {
   Vertices vertices;
   VertexNames names;
-  Array<std::uint64_t, WorkerMemory> bits;
+  NumberSet passed;
 
-  KOKKOS_FUNCTION void operator()(Offset i) const {
-    const Id name = names[vertices(i)];
-    const std::uint64_t bit = std::uint64_t(1) << (name & 63);
-    std::uint64_t& word = bits(name >> 6);
-    if ((atomic_read(&word) & bit) == 0) atomic_or(&word, bit);
-  }
+  KOKKOS_FUNCTION void operator()(Offset i) const { passed.insert_again(names[vertices(i)]); }
 };
 
 /// Calls a vertex what rename[name] says.
@@ -54,16 +49,15 @@ void rename_all(const TrianglesThere& triangles, const VertexNames& names, const
 
 }  // namespace
 
-std::vector<std::uint64_t> names_passed(const TrianglesThere& triangles, const VertexNames& names, std::size_t words) {
+std::vector<std::uint64_t> names_passed(const TrianglesThere& triangles, const VertexNames& names, Id count) {
   const WorkerSpace space;
-  const auto bits = allocate<Array<std::uint64_t, WorkerMemory>>("GALE::names_passed", words);
-  fill("GALE::names_passed", space, bits, std::uint64_t(0));
+  const NumberSet passed("GALE::names_passed", space, count);
   for (const auto& part : triangles) {
     const Vertices vertices = vertices_of(part);
-    parallel_for("GALE::names_passed", space, vertices.extent(0), MarkName{vertices, names, bits});
+    parallel_for("GALE::names_passed", space, vertices.extent(0), MarkName{vertices, names, passed});
   }
   space.fence();
-  return vector_of(bits);
+  return vector_of(passed.words());
 }
 
 void rename_vertices(const TrianglesThere& triangles, const VertexNames& names, const NumberedSet* numbers) {

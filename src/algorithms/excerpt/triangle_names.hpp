@@ -12,9 +12,9 @@ namespace gale::detail {
 
 using TrianglesThere = std::vector<Array<TriangleVertices, WorkerMemory>>;
 
-/// Bits of the names of vertices that triangles in the workers' memory have: of names below 64 `words`, found there.
-/// Throws OutOfMemory.
-std::vector<std::uint64_t> names_passed(const TrianglesThere& triangles, const VertexNames& names, std::size_t words);
+/// The names of vertices, below `count`, that triangles in the workers' memory have: a bit each, 64 a word. Throws
+/// OutOfMemory.
+std::vector<std::uint64_t> names_passed(const TrianglesThere& triangles, const VertexNames& names, Id count);
 
 /// Has triangles in the workers' memory call their vertices by the numbers of their names, or by these, if there are no
 /// numbers. Throws OutOfMemory, and has changed nothing then.

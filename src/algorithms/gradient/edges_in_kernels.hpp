@@ -51,13 +51,28 @@ struct EdgesInKernels {
     return codes == nullptr ? in_row(high, low) : in_code(high, low);
   }
 
+  // Numbers of a vertex's edges follow one another, if it is an owned one; where they are read from codes there are more
+  // of them than edges.
+
+  KOKKOS_FUNCTION Offset first_number(Id high) const {
+    return codes == nullptr ? pairs_begin[high] + 1 : grid_directions * Offset(high);
+  }
+  KOKKOS_FUNCTION int numbers(Id high) const { return codes == nullptr ? row(high).size() : grid_directions; }
+
+  /// The lower end of the edge that has the i-th of these numbers.
+  KOKKOS_FUNCTION Id low(Id high, int i) const { return codes == nullptr ? row(high).ids()[i] : high + steps.step[i]; }
+
  private:
+  KOKKOS_FUNCTION EdgePairRow row(Id high) const {
+    return EdgePairRow(const_cast<Id*>(pair_words) + pairs_begin[high]);  // nobody writes to it
+  }
+
   /// Reads it from the row of its higher end: its number is the place of the word.
   KOKKOS_FUNCTION PairedEdge in_row(Id high, Id low) const {
-    const EdgePairRow row(const_cast<Id*>(pair_words) + pairs_begin[high]);  // nobody writes to it
-    const Id place = row.find(low), third = row.third(place);
+    const EdgePairRow all = row(high);
+    const Id place = all.find(low), third = all.third(place);
     const Id why_none = vertex_successor[high] == low ? edge_has_vertex : edge_is_critical;
-    return {pairs_begin[high] + 1 + place, third == no_id ? why_none : third};
+    return {first_number(high) + place, third == no_id ? why_none : third};
   }
 
   /// Reads it from the code of its higher end: of each vertex there are as many numbers as directions.
@@ -65,7 +80,7 @@ struct EdgesInKernels {
     const PairCode code(codes[high]);
     const int direction = steps.direction(low - high), to = code[direction];
     const Id why_none = code[PairCode::itself] == direction ? edge_has_vertex : edge_is_critical;
-    return {grid_directions * Offset(high) + direction, to < PairCode::unpaired ? high + steps.step[to] : why_none};
+    return {first_number(high) + direction, to < PairCode::unpaired ? high + steps.step[to] : why_none};
   }
 };
 
