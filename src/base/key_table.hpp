@@ -49,8 +49,8 @@ class KeyTable {
   /// Reads what is where a key is looked for first.
   KOKKOS_FUNCTION std::uint64_t first_there(std::uint64_t key) const { return atomic_read(&keys_(first_place(key))); }
 
-  /// Claims that place for a key, when first_there(key) was `there`. Returns what was there before: none where it is the
-  /// key's now.
+  /// Claims that place for a key, when first_there(key) was `there`. Returns what was there before: none where it is
+  /// the key's now.
   KOKKOS_FUNCTION std::uint64_t claim(std::uint64_t key, std::uint64_t there) const {
     return there == none ? atomic_compare_exchange(&keys_(first_place(key)), none, key) : there;
   }
@@ -79,7 +79,13 @@ class KeyTable {
   }
 
  private:
-  KOKKOS_FUNCTION std::uint64_t first_place(std::uint64_t key) const { return spread(key) & (keys_.extent(0) - 1); }
+  /// Keys that differ in their last bits alone are looked for side by side: what comes one after the other is mostly
+  /// near in memory then.
+  KOKKOS_FUNCTION std::uint64_t first_place(std::uint64_t key) const {
+    constexpr int near = 4;
+    constexpr std::uint64_t last = (std::uint64_t(1) << near) - 1;
+    return ((spread(key >> near) << near) | (key & last)) & (keys_.extent(0) - 1);
+  }
   KOKKOS_FUNCTION std::uint64_t next_place(std::uint64_t place) const { return (place + 1) & (keys_.extent(0) - 1); }
 
   Array<std::uint64_t, WorkerMemory> keys_;

@@ -107,7 +107,7 @@ TEST(CondensedPaths, end_where_paths_of_all_simplices_do_in_each_memory) {
     using Memory = MemoryOf<std::decay_t<decltype(space)>>;
     const Array<Id, Memory> starts = allocate<Array<Id, Memory>>("starts", paths);
     Kokkos::deep_copy(starts, first);
-    const auto next = detail::condensed_paths(space, given, ends, starts);
+    const auto next = detail::condensed_paths(space, given, ends, starts).next;
     ASSERT_LE(next.extent(0), paths + ends.size());
     detail::jump(space, next);
     space.fence();

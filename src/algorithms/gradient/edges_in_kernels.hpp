@@ -51,8 +51,8 @@ struct EdgesInKernels {
     return codes == nullptr ? in_row(high, low) : in_code(high, low);
   }
 
-  // Numbers of a vertex's edges follow one another, if it is an owned one; where they are read from codes there are more
-  // of them than edges.
+  // Numbers of a vertex's edges follow one another, if it is an owned one; where they are read from codes there are
+  // more of them than edges.
 
   KOKKOS_FUNCTION Offset first_number(Id high) const {
     return codes == nullptr ? pairs_begin[high] + 1 : grid_directions * Offset(high);

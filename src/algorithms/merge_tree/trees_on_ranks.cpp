@@ -82,7 +82,7 @@ std::vector<MergeTree> trees_on_ranks(const VertexOrder& order, MirroredGraph gr
       const std::vector<Id> extrema = gathered.places_of_extrema(side);
       of_ends = sides[side]->places_of_ends([&](GlobalId id) { return extrema[gathered.place_of(id)]; });
     });
-    places[side] = ends_of_vertices(*sides[side]->paths, {}, of_ends);
+    places[side] = ends_of_vertices(*sides[side]->paths, of_ends);
   }
   std::vector<std::vector<Id>> arcs;
   together(ranks, [&] {

@@ -72,37 +72,66 @@ struct CountMarked {
   KOKKOS_FUNCTION Id operator()(Offset word) const { return count_bits(words(word)); }
 };
 
-/// Ends the paths of those that are ends.
+/// Ends the paths of those that are ends, whose places begin with `first`.
 template <class Memory>
 struct EndAtEntry {
   RankedBits entries;
   Array<const Id, Memory> ends;
+  Id first;
   Array<Id, Memory> next;
 
-  KOKKOS_FUNCTION void operator()(Offset i) const { next(entries.rank(ends(i))) = end_at(static_cast<Id>(i)); }
+  KOKKOS_FUNCTION void operator()(Offset i) const { next(entries.rank(ends(i))) = end_at(first + static_cast<Id>(i)); }
+};
+
+/// Entries of paths in a memory. Copies share them.
+template <class Memory>
+struct CondensedPaths {
+  Array<Id, Memory> next;              ///< of each entry, for jump()
+  Array<std::uint64_t, Memory> words;  ///< a bit for each simplex: whether it has an entry; none: all have, in order
+  Array<Id, Memory> before;            ///< how many have before those of each word
 };
 
 /// Where some paths begin and end, as with_ends() has it of all simplices: the entries of those of `starts`, which are
-/// written over with their entries, and of `ends`. jump() takes it. Waits for the space.
+/// written over with their entries, of `ends`, and of `exits`, which are ends after all of these. Waits for the space.
 template <class Space>
-Array<Id, MemoryOf<Space>> condensed_paths(const Space& space, const Mirrored<Id>& successors,
-                                           const std::vector<Id>& ends, const Array<Id, MemoryOf<Space>>& starts) {
+CondensedPaths<MemoryOf<Space>> condensed_paths(const Space& space, const Mirrored<Id>& successors,
+                                                const std::vector<Id>& ends, const Array<Id, MemoryOf<Space>>& starts,
+                                                const Array<Id, MemoryOf<Space>>& exits = {}) {
   using Memory = MemoryOf<Space>;
   const auto count = static_cast<Offset>(successors.size()) / 64 + 1;
   const auto words = allocate<Array<std::uint64_t, Memory>>("GALE::path_entries", count);
   fill("GALE::path_entries", space, words, std::uint64_t(0));
   const Array<const Id, Memory> last = in_memory<Memory>(Array<const Id, HostMemory>(ends.data(), ends.size()));
-  for (const MarkSimplices<Memory>& mark : {MarkSimplices<Memory>{starts, words}, MarkSimplices<Memory>{last, words}})
+  for (const Array<const Id, Memory>& simplices :
+       {Array<const Id, Memory>(starts), last, Array<const Id, Memory>(exits)}) {
+    const MarkSimplices<Memory> mark{simplices, words};
     parallel_for("GALE::mark_path_entries", space, mark.items(), mark);
+  }
   const auto before = allocate<Array<Id, Memory>>("GALE::path_entries_before", count + 1);
   const Id entries = exclusive_scan("GALE::path_entries_before", space, count, before, CountMarked<Memory>{words});
   const RankedBits ranked{words.data(), before.data(), nullptr};
   const auto next = allocate<Array<Id, Memory>>("GALE::next_on_path", entries);
   parallel_for("GALE::condense_paths", space, starts.extent(0),
                CondensePath<Memory>{ranked, successors_in<Memory>(successors), starts, next});
-  parallel_for("GALE::end_paths", space, last.extent(0), EndAtEntry<Memory>{ranked, last, next});
+  parallel_for("GALE::end_paths", space, last.extent(0), EndAtEntry<Memory>{ranked, last, 0, next});
+  parallel_for("GALE::end_paths", space, exits.extent(0),
+               EndAtEntry<Memory>{ranked, exits, static_cast<Id>(ends.size()), next});
   space.fence();
-  return next;
+  return {next, words, before};
 }
+
+/// Finds the end of a simplex' path, from the next one on it that has an entry: its place, no_id for outside.
+template <class Memory>
+struct EndOfPath {
+  Array<const Id, Memory> ends;  ///< of entries, after jump()
+  RankedBits entries;            ///< no words: simplices are entries
+  Array<const Id, Memory> successors;
+
+  KOKKOS_FUNCTION Id operator()(Id at) const {
+    if (entries.words == nullptr) return place_of_end(ends(at));
+    while (at >= 0 && !entries.has(at)) at = successors(at);
+    return at < 0 ? no_id : place_of_end(ends(entries.rank(at)));
+  }
+};
 
 }  // namespace gale::detail

@@ -3,6 +3,7 @@
 
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/morse_smale/condensed_paths.hpp>
+#include <gale/algorithms/morse_smale/first_cells.hpp>
 #include <gale/algorithms/morse_smale/jump.hpp>
 #include <gale/algorithms/morse_smale/parts.hpp>
 #include <gale/algorithms/morse_smale/paths_on_ranks.hpp>
@@ -18,48 +19,6 @@ namespace {
 
 template <class Space>
 using Ids = Array<Id, MemoryOf<Space>>;
-
-/// What first_cells does of a grid, where each vertex knows its cells.
-template <class Space>
-void first_cells_of_grid(const Space& space, const Mesh& mesh, const Ids<Space>& first) {
-  const GridView grid = mesh.grid()->in<MemoryOf<Space>>();
-  const StarKind* const kinds = mesh.grid()->kinds_in<MemoryOf<Space>>();
-  const Id* const begin = mesh.interval_begin<MemoryOf<Space>>(0).data();
-  parallel_for(
-      "GALE::first_cells", space, mesh.segments(), KOKKOS_LAMBDA(Offset s) {
-        GridCursor at(grid);
-        for (Id v = begin[s]; v < begin[s + 1]; ++v) {
-          at.go_to(v);
-          first(v) = at.cell(kinds[at.kind()].cell[0]);
-        }
-      });
-}
-
-/// For each vertex (GALE's id) its cell of lowest input id; no_id where it has no cell.
-template <class Space>
-Ids<Space> first_cells(const Space& space, const Mesh& mesh) {
-  const auto first = allocate<Ids<Space>>("GALE::first_cells", mesh.vertices());
-  if (mesh.grid() != nullptr) {
-    first_cells_of_grid(space, mesh, first);
-    return first;
-  }
-  const auto encoded = mesh.encoded<MemoryOf<Space>>();
-  const auto input = mesh.cell_input<MemoryOf<Space>>();
-  parallel_for(
-      "GALE::first_cells", space, mesh.segments(), KOKKOS_LAMBDA(Offset s) {
-        const Id begin = encoded.vertex_begin(s), end = encoded.vertex_begin(s + 1);
-        const auto offer = [&](Id t) {
-          for (int corner = 0; corner < 4; ++corner) {
-            const Id v = encoded.cells(t, corner);
-            if (v >= begin && v < end && (first(v) == no_id || input(t) < input(first(v)))) first(v) = t;
-          }
-        };
-        for (Id v = begin; v < end; ++v) first(v) = no_id;
-        for (Id t = encoded.internal_begin(s); t < encoded.internal_begin(s + 1); ++t) offer(t);
-        for (Offset i = encoded.external_begin(s); i < encoded.external_begin(s + 1); ++i) offer(encoded.external(i));
-      });
-  return first;
-}
 
 /// Where the paths of vertices end, by input id.
 template <class Memory>
@@ -89,20 +48,14 @@ Ids<Space> manifolds_of(const Space& space, const Mesh& mesh, Interval vertices,
   return end.manifolds;
 }
 
-/// The cells where paths of vertices start; none where these start at the vertices themselves.
-template <class Space>
-Ids<Space> starts_in(const Space& space, const Mesh& mesh, PathSimplices::Kind kind) {
-  return kind == PathSimplices::Kind::falling_vertices ? Ids<Space>() : first_cells(space, mesh);
-}
-
 template <class Space>
 Mirrored<Id> manifolds_in(const Space& space, const DiscreteGradient& gradient, PathSimplices::Kind kind) {
   const Mesh& mesh = gradient.mesh();
   const CriticalSimplices& critical = gradient.critical();
-  const Ids<Space> starts = starts_in(space, mesh, kind);
+  const Ids<Space> starts = kind == PathSimplices::Kind::falling_vertices ? Ids<Space>() : first_cells(space, mesh);
   const auto next = kind == PathSimplices::Kind::falling_vertices
                         ? with_ends(space, gradient.store().vertex_successors(), critical.vertices)
-                        : condensed_paths(space, gradient.store().cell_successors(), critical.cells, starts);
+                        : condensed_paths(space, gradient.store().cell_successors(), critical.cells, starts).next;
   jump(space, next);
   // Each takes the place of where its path starts, if vertices keep their numbers.
   const bool in_place = mesh.vertices_in_input<MemoryOf<Space>>().table == nullptr;
@@ -122,25 +75,6 @@ Mirrored<Id> renamed_in(const Space& space, const Mirrored<Id>& manifolds, const
   return to;
 }
 
-/// The simplices where paths of this rank's vertices start that another one follows on.
-template <class Space>
-std::vector<Id> starts_elsewhere(const Space& space, const PathSimplices& simplices, const Mirrored<Id>& of_vertices) {
-  if (of_vertices.size() == 0) return {};  // vertices' own are here
-  const auto starts = of_vertices.in<MemoryOf<Space>>();
-  const auto successors = simplices.successors().in<MemoryOf<Space>>();
-  const Interval owned = simplices.mesh().owned_vertices(), inner = simplices.inner();
-  const Ids<Space> found = selected(
-      "GALE::starts_elsewhere", space, owned.size(), KOKKOS_LAMBDA(Offset i) {
-        const Id start = starts(owned.first + i);
-        return start != no_id && !inner.has(start) && successors(start) == DiscreteGradient::elsewhere;
-      });
-  parallel_for(
-      "GALE::starts_elsewhere", space, found.extent(0),
-      KOKKOS_LAMBDA(Offset i) { found(i) = starts(owned.first + found(i)); });
-  space.fence();
-  return vector_of(found);
-}
-
 /// The manifolds of a rank's own vertices, and what is still to be done of its ghosts'.
 struct OwnManifolds {
   Array<Id, HostMemory> given;  ///< of the vertices that others have as ghosts, as `from_owners` gives them
@@ -148,14 +82,13 @@ struct OwnManifolds {
 };
 
 template <class Space>
-OwnManifolds own_manifolds(const Space& space, const PathsOnRanks& paths, const Mirrored<Id>& starts,
-                           const Array<const Id, HostMemory>& names) {
+OwnManifolds own_manifolds(const Space& space, const PathsOnRanks& paths, const Array<const Id, HostMemory>& names) {
   using Memory = MemoryOf<Space>;
   const Mesh& mesh = paths.simplices().mesh();
   const ExchangePlan& plan = mesh.exchange().from_owners();
   const Ids<Space> manifolds =
       manifolds_of(space, mesh, mesh.owned_vertices(),
-                   {starts.in<Memory>(), paths.ends_here().in<Memory>(), in_memory<Memory>(names), {}, {}});
+                   {paths.starts().in<Memory>(), paths.ends_here().in<Memory>(), in_memory<Memory>(names), {}, {}});
   const Array<Id, Memory> places = in_memory<Memory>(plan.given_places());
   const auto given = allocate<Ids<Space>>("GALE::given_manifolds", places.extent(0));
   parallel_for(
@@ -186,25 +119,15 @@ Array<GlobalId, HostMemory> places_among_all(const PathSimplices& simplices) {
 Mirrored<Id> manifolds_on_ranks(const DiscreteGradient& gradient, PathSimplices::Kind kind, PathExits* exits) {
   const auto simplices = PathSimplices::make(gradient, kind);
   const Ranks& ranks = gradient.mesh().exchange().ranks();
-  Mirrored<Id> starts;  // of vertices
-  std::vector<Id> elsewhere;
-  together(ranks, [&] {
-    const bool on_device = simplices->successors().on_device();
-    starts = in_worker_or_host_space(
-        on_device, [&](const auto& space) -> Mirrored<Id> { return starts_in(space, gradient.mesh(), kind); });
-    elsewhere = in_worker_or_host_space(on_device,
-                                        [&](const auto& space) { return starts_elsewhere(space, *simplices, starts); });
-    if (exits == nullptr) return;
-    elsewhere.insert(elsewhere.end(), exits->starts.simplices.begin(), exits->starts.simplices.end());
-  });
-  const PathsOnRanks paths(*simplices, places_among_all(*simplices), elsewhere);
+  const PathsOnRanks paths(*simplices, places_among_all(*simplices),
+                           exits == nullptr ? std::vector<Id>() : exits->starts.simplices);
   Array<const Id, HostMemory> places;
   together(ranks, [&] {
     if (exits != nullptr) exits->links = paths.exits_from(exits->starts.simplices);
     places = tabulated<Id>("GALE::places_of_ends", paths.ends(),
                            [&](Offset end) { return static_cast<Id>(paths.final_name(static_cast<Id>(end))); });
   });
-  return ends_of_vertices(paths, starts, places);
+  return ends_of_vertices(paths, places);
 }
 
 Mirrored<Id> manifolds(const DiscreteGradient& gradient, PathSimplices::Kind kind, PathExits* exits) {
@@ -215,12 +138,11 @@ Mirrored<Id> manifolds(const DiscreteGradient& gradient, PathSimplices::Kind kin
 
 }  // namespace
 
-Mirrored<Id> ends_of_vertices(const PathsOnRanks& paths, const Mirrored<Id>& starts,
-                              const Array<const Id, HostMemory>& names) {
+Mirrored<Id> ends_of_vertices(const PathsOnRanks& paths, const Array<const Id, HostMemory>& names) {
   OwnManifolds own;
   together(paths.ranks(), [&] {
     own = in_worker_or_host_space(paths.ends_here().on_device(),
-                                  [&](const auto& space) { return own_manifolds(space, paths, starts, names); });
+                                  [&](const auto& space) { return own_manifolds(space, paths, names); });
   });
   const auto taken = paths.simplices().mesh().exchange().from_owners().fetch(paths.ranks(), own.given);
   Mirrored<Id> ends;

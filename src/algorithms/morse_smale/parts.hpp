@@ -80,8 +80,8 @@ class ConnectorsHere {
   /// begin.
   const std::vector<std::array<Id, 2>>& exits() const { return exits_; }
 
-  /// All connectors, once, while this is there. `wider` has all that is reached from the exits; `places` are those of critical simplices
-  /// there, and edge_places[i] is that of the rank's i-th critical edge.
+  /// All connectors, once, while this is there. `wider` has all that is reached from the exits; `places` are those of
+  /// critical simplices there, and edge_places[i] is that of the rank's i-th critical edge.
   FoundConnectors finish(const WiderGradient& wider, const CriticalPlaces& places, const std::vector<Id>& edge_places);
 
  private:

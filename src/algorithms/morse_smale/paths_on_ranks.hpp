@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -78,24 +79,34 @@ struct ExitLinks {
   std::vector<Id> wanted;                   ///< the places of those that paths were asked for, once each
 };
 
+/// How paths end on one rank: those of entries, as condensed_paths.hpp has them.
+struct PathEnds {
+  Mirrored<Id> of_entries;
+  Mirrored<std::uint64_t> words;  ///< of the simplices that have entries; none: all have
+  Mirrored<Id> before;
+};
+
 /// The ends of paths along the successors of a mesh on several ranks, by pointer jumping: first on each rank, then from
 /// rank to rank, in a number of rounds that grows with the logarithm of how often a path changes ranks.
 class PathsOnRanks {
  public:
-  /// Finds those of paths from all simplices whose successors this rank knows, and from `others` (GALE's ids), whose
-  /// successors may be elsewhere. `names`, 0 or more, are those of the rank's critical simplices, by which all ranks
-  /// are to know them. Collective; throws gale::Error on all ranks. Refers to `simplices`.
+  /// Finds those of paths of vertices, upwards from their first_cells(), of simplices that others share, and from
+  /// `others` (GALE's ids), whose successors may be elsewhere. `names`, 0 or more, are those of the rank's critical
+  /// simplices, by which all ranks are to know them. Collective; throws gale::Error on all ranks. Refers to
+  /// `simplices`.
   PathsOnRanks(const PathSimplices& simplices, const Array<const std::int64_t, HostMemory>& names,
                const std::vector<Id>& others = {});
 
   /// Finds the exits of these paths alone, and where each goes on: no names of ends. Likewise.
   PathsOnRanks(const PathSimplices& simplices, const std::vector<Id>& others);
 
-  /// How the paths from local simplices (GALE's ids) end on this rank: `end_at` (jump.hpp) the number of that end,
-  /// below. Where the successors are, if there was room.
-  const Mirrored<Id>& ends_here() const { return ends_; }
+  /// How the paths of vertices end on this rank, from starts()[vertex], or of each vertex, where there are no starts:
+  /// `end_at` (jump.hpp) the number of that end, below. Where the successors are, if there was room.
+  const Mirrored<Id>& ends_here() const { return ends_.of_entries; }
+  const Mirrored<Id>& starts() const { return starts_; }
 
-  /// The numbers of these ends for some simplices; no_id if a path leaves through the surface. Not collective.
+  /// The numbers of the ends of some simplices' paths here; no_id for one that leaves through the surface. Not
+  /// collective.
   std::vector<Id> ends_of(const std::vector<Id>& simplices) const;
 
   /// All exits, of which those are wanted that paths from some simplices (GALE's ids) come to: where successors are
@@ -129,17 +140,16 @@ class PathsOnRanks {
   const Id criticals_;
   Array<const std::int64_t, HostMemory> names_;  ///< of the critical simplices
   Array<Id, HostMemory> exits_;                  ///< ascending
-  Mirrored<Id> ends_;
+  PathEnds ends_;
+  Mirrored<Id> starts_;
   Array<PathStop, HostMemory> stops_;  ///< of each exit: where paths from there are after 2^(rounds-1) changes of ranks
   Array<ExitLink, HostMemory> links_;  ///< of each exit
   std::vector<Id> open_;               ///< the places of those whose paths haven't ended yet
   int rounds_ = 0;
 };
 
-/// For each vertex that this rank holds, its ghosts, too, by input id, names[end] of the end of its path here: from
-/// starts(vertex), by GALE's ids, or from itself where there are no starts; no_id where that is, or the path leaves
-/// through the surface. Collective.
-Mirrored<Id> ends_of_vertices(const PathsOnRanks& paths, const Mirrored<Id>& starts,
-                              const Array<const Id, HostMemory>& names);
+/// For each vertex that this rank holds, its ghosts, too, by input id, names[end] of the end of its path here; no_id
+/// where that is, where no path starts, or it leaves through the surface. Collective.
+Mirrored<Id> ends_of_vertices(const PathsOnRanks& paths, const Array<const Id, HostMemory>& names);
 
 }  // namespace gale::detail
