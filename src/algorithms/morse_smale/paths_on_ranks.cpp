@@ -17,7 +17,7 @@ namespace {
 /// What a rank finds of its paths by itself.
 struct PathsHere {
   Array<Id, HostMemory> exits;    ///< ascending
-  PathEnds ends;                  ///< numbers of the critical ones, or after all of these the exits'
+  EndsHere ends;                  ///< numbers of the critical ones, or after all of these the exits'
   Mirrored<Id> starts;            ///< of vertices' paths, by entry; none: themselves
   Array<Id, HostMemory> reached;  ///< the places of exits that paths from other simplices come to, ascending
 };

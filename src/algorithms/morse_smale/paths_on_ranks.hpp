@@ -80,7 +80,7 @@ struct ExitLinks {
 };
 
 /// How paths end on one rank: those of entries, as condensed_paths.hpp has them.
-struct PathEnds {
+struct EndsHere {
   Mirrored<Id> of_entries;
   Mirrored<std::uint64_t> words;  ///< of the simplices that have entries; none: all have
   Mirrored<Id> before;
@@ -140,7 +140,7 @@ class PathsOnRanks {
   const Id criticals_;
   Array<const std::int64_t, HostMemory> names_;  ///< of the critical simplices
   Array<Id, HostMemory> exits_;                  ///< ascending
-  PathEnds ends_;
+  EndsHere ends_;
   Mirrored<Id> starts_;
   Array<PathStop, HostMemory> stops_;  ///< of each exit: where paths from there are after 2^(rounds-1) changes of ranks
   Array<ExitLink, HostMemory> links_;  ///< of each exit
