@@ -79,13 +79,7 @@ class KeyTable {
   }
 
  private:
-  /// Keys that differ in their last bits alone are looked for side by side: what comes one after the other is mostly
-  /// near in memory then.
-  KOKKOS_FUNCTION std::uint64_t first_place(std::uint64_t key) const {
-    constexpr int near = 4;
-    constexpr std::uint64_t last = (std::uint64_t(1) << near) - 1;
-    return ((spread(key >> near) << near) | (key & last)) & (keys_.extent(0) - 1);
-  }
+  KOKKOS_FUNCTION std::uint64_t first_place(std::uint64_t key) const { return spread(key) & (keys_.extent(0) - 1); }
   KOKKOS_FUNCTION std::uint64_t next_place(std::uint64_t place) const { return (place + 1) & (keys_.extent(0) - 1); }
 
   Array<std::uint64_t, WorkerMemory> keys_;

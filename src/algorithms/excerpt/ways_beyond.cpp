@@ -140,8 +140,14 @@ class WaysBeyond {
     for (int asker = 0; asker < ranks_.size(); ++asker) {
       if (falling_[asker].empty()) continue;
       if (!falls_[asker]) falls_[asker] = std::make_unique<EdgeFall>(gradient_, asker == ranks_.rank());
-      for (const auto& [high, low] : falls_[asker]->fall(std::exchange(falling_[asker], {})))
-        hand_on(mesh_.exchange().owner(input_[high]), {WayKind::falling_edges, asker, global(high), global(low)});
+      const auto left = falls_[asker]->fall(std::exchange(falling_[asker], {}));
+      const std::size_t before = elsewhere_.size();
+      elsewhere_.resize(before + left.size());
+      parallel_for("GALE::left_edges", HostExecutionSpace(), left.size(), [&](Offset i) {
+        const auto [high, low] = left[i];
+        elsewhere_[before + i] = {mesh_.exchange().owner(input_[high]),
+                                  {WayKind::falling_edges, asker, global(high), global(low)}};
+      });
     }
   }
 

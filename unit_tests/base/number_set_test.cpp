@@ -1,0 +1,64 @@
+#include <algorithm>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <gale/base/number_set.hpp>
+#include <gale/base/transfer.hpp>
+
+namespace gale::test {
+
+namespace {
+
+constexpr Offset bound = 1000;  // no multiple of 64
+
+/// Inserts every third number many times, and notes whether it was new.
+struct InsertThirds {
+  detail::NumberSet set;
+  Array<char, WorkerMemory> are_new;
+  bool again;
+
+  KOKKOS_FUNCTION void operator()(Offset i) const {
+    const Offset number = 3 * i % bound / 3 * 3;
+    again ? set.insert_again(number) : void(are_new(i) = set.insert(number));
+  }
+};
+
+struct ReadNumbers {
+  detail::NumberSet set;
+  Array<char, WorkerMemory> are_there;
+
+  KOKKOS_FUNCTION void operator()(Offset number) const { are_there(number) = set.has(number); }
+};
+
+void expect_thirds(const detail::NumberSet& set) {
+  const WorkerSpace space;
+  const ReadNumbers read{set, allocate<Array<char, WorkerMemory>>("there", bound)};
+  parallel_for("read", space, bound, read);
+  space.fence();
+  const auto are_there = vector_of(read.are_there);
+  const auto words = vector_of(set.words());
+  ASSERT_EQ(words.size(), 16u);
+  for (Offset n = 0; n < bound; ++n) {
+    EXPECT_EQ(are_there[n] != 0, n % 3 == 0) << n;
+    EXPECT_EQ(words[n / 64] >> (n % 64) & 1, std::uint64_t(n % 3 == 0)) << n;
+  }
+}
+
+}  // namespace
+
+TEST(NumberSet, has_what_was_inserted_each_once) {
+  const WorkerSpace space;
+  constexpr Offset insertions = 20000;
+  for (const bool again : {false, true}) {
+    const detail::NumberSet set("set", space, bound);
+    const InsertThirds insert{set, allocate<Array<char, WorkerMemory>>("new", insertions), again};
+    parallel_for("insert", space, insertions, insert);
+    space.fence();
+    expect_thirds(set);
+    const auto are_new = vector_of(insert.are_new);
+    if (!again) EXPECT_EQ(std::count(are_new.begin(), are_new.end(), 1), (bound + 2) / 3);
+  }
+}
+
+}  // namespace gale::test
