@@ -47,7 +47,8 @@ void join(std::vector<FoundFor>& found, Reached& sent) {
   to = room_by_rank<std::decay_t<decltype(to.entries(0))>>("GALE::reached", counts);
   for (std::size_t r = 0; r < found.size(); ++r) {
     auto& from = std::get<i>(found[r].all());
-    std::copy(from.begin(), from.end(), to.entries.data() + to.begin[r]);
+    auto* const place = to.entries.data() + to.begin[r];
+    parallel_for("GALE::reached", HostExecutionSpace(), from.size(), [&](Offset k) { place[k] = from[k]; });
     from = {};
   }
 }

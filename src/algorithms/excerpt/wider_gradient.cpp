@@ -3,6 +3,7 @@
 
 #include <gale/algorithms/excerpt/wider_gradient.hpp>
 #include <gale/base/parallel.hpp>
+#include <gale/base/threads.hpp>
 
 namespace gale::detail {
 
@@ -84,10 +85,11 @@ void WiderGradient::add_critical(const Reached& reached) {
     for (const Id place : places) is_own_[dimension][place] = 1;
     return places;
   };
-  merge(0, &CriticalSimplices::vertices, [&](Id v) { return names[v]; });
-  own_edges_ = merge(1, &CriticalSimplices::edges, [&](const auto& e) { return written(names, e); });
   if (own.dimension == 3) is_own_[2].assign(own.triangles.size(), 1);  // nobody tells of others'
-  merge(own.dimension, &CriticalSimplices::cells, [&](Id t) { return simplices_->cell_id(t); });
+  side_by_side(
+      [&] { own_edges_ = merge(1, &CriticalSimplices::edges, [&](const auto& e) { return written(names, e); }); },
+      [&] { merge(0, &CriticalSimplices::vertices, [&](Id v) { return names[v]; }); },
+      [&] { merge(own.dimension, &CriticalSimplices::cells, [&](Id t) { return simplices_->cell_id(t); }); });
 }
 
 }  // namespace gale::detail
