@@ -128,4 +128,40 @@ TEST(CondensedPaths, end_where_paths_of_all_simplices_do_in_each_memory) {
   }
 }
 
+TEST(CondensedPaths, end_at_exits_behind_the_ends_from_whatever_simplex_they_are_asked) {
+  const Id count = 30000, paths = 5000;
+  const auto successors = falling_successors(count);
+  std::vector<Id> ends, exits, expected(count), all(count);
+  for (Id i = 0; i < count; ++i) {
+    if (successors(i) == no_id) ends.push_back(i);
+    if (successors(i) == -3) exits.push_back(i);
+    all[i] = i;
+  }
+  ASSERT_GT(exits.size(), 100u);
+  for (std::size_t i = 0; i < ends.size(); ++i) expected[ends[i]] = static_cast<Id>(i);
+  for (std::size_t i = 0; i < exits.size(); ++i) expected[exits[i]] = static_cast<Id>(ends.size() + i);
+  for (Id i = 0; i < count; ++i) {  // successors are lower
+    if (successors(i) >= 0) expected[i] = expected[successors(i)];
+    if (successors(i) == -2) expected[i] = no_id;
+  }
+  const Mirrored<Id> given = Array<const Id, HostMemory>(successors);
+  const auto follow = [&](const auto& space) {
+    using Memory = MemoryOf<std::decay_t<decltype(space)>>;
+    const auto in_space = [](const std::vector<Id>& ids) {
+      const auto copy = allocate<Array<Id, Memory>>("ids", ids.size());
+      Kokkos::deep_copy(copy, Array<const Id, HostMemory>(ids.data(), ids.size()));
+      return copy;
+    };
+    const auto found =
+        detail::condensed_paths(space, given, ends, in_space({all.end() - paths, all.end()}), in_space(exits));
+    ASSERT_LT(found.next.extent(0), static_cast<std::size_t>(count) / 2);
+    detail::jump(space, found.next);
+    space.fence();
+    const detail::EndOfPath<Memory> end{found.next, found.words, found.before, given.in<Memory>()};
+    EXPECT_EQ(detail::results_at("ends", space, all, end), expected);
+  };
+  follow(HostExecutionSpace());
+  follow(WorkerSpace());
+}
+
 }  // namespace gale::test

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <gale/algorithms/excerpt/triangle_names.hpp>
 #include <gale/algorithms/excerpt/wall_rows.hpp>
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/morse_smale.hpp>
@@ -145,6 +146,44 @@ TEST(MorseSmaleComplex, has_the_same_connectors_however_many_walls_grow_side_by_
     connectors.bring();
     found.connectors = std::move(connectors.paths);
     EXPECT_TRUE(equal(found, expected)) << together;
+  }
+}
+
+TEST(MorseSmaleComplex, has_connectors_named_where_they_were_found) {
+  const InputMesh input = holed_grid(20);
+  const Mesh mesh = encode(input, 100);
+  const auto field = random_field(input, 1);
+  const VertexOrder order(mesh, field.data(), field.size());
+  const auto gradient = find_discrete_gradient(WorkerSpace(), order);
+  const auto& critical = gradient.critical();
+  const detail::CriticalPlaces places(critical);
+  const auto rows = detail::wall_rows(gradient);
+  const auto find = [&](Offset together) {
+    return detail::device_connectors(rows, critical.triangles, places, together);
+  };
+  auto expected = find(100'000'000);
+  expected.bring();
+  const OtherIds names = mesh.vertices_in_input();
+  detail::NumberedSet passed(mesh.vertices());
+  for (const auto& triangle : expected.paths.cells) {
+    for (const Id vertex : triangle) passed.insert(names[vertex]);
+  }
+  passed.number();
+  for (const bool are_numbered : {false, true}) {
+    for (const Offset together : {20'000, 100'000'000}) {
+      auto found = find(together);
+      ASSERT_GT(found.triangles.size(), together == 20'000 ? 1u : 0u);
+      const auto bits = detail::names_passed(found.triangles, found.names, mesh.vertices());
+      for (std::size_t w = 0; w < bits.size(); ++w) ASSERT_EQ(bits[w], passed.words()[w].bits) << w;
+      detail::rename_vertices(found.triangles, found.names, are_numbered ? &passed : nullptr);
+      found.bring();
+      ASSERT_EQ(found.paths.cells.size(), expected.paths.cells.size());
+      for (std::size_t i = 0; i < expected.paths.cells.size(); ++i) {
+        auto triangle = expected.paths.cells[i];
+        for (Id& vertex : triangle) vertex = are_numbered ? passed[names[vertex]] : names[vertex];
+        ASSERT_EQ(found.paths.cells[i], triangle) << i;
+      }
+    }
   }
 }
 

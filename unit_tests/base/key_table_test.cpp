@@ -70,6 +70,43 @@ TEST(KeyTable, has_each_key_once_at_a_place_of_its_own) {
     ASSERT_EQ(found[i], i < 3000 ? places[i] : detail::KeyTable::none) << i;
 }
 
+/// Claims places for two keys that are looked for at the same one, after both were seen empty.
+struct ClaimTwice {
+  detail::KeyTable table;
+  std::uint64_t first, second;
+  Array<std::uint64_t, WorkerMemory> places;  ///< and whether each was new
+
+  KOKKOS_FUNCTION void operator()(Offset) const {
+    std::uint64_t there[] = {table.first_there(first), table.first_there(second)};
+    there[0] = table.claim(first, there[0]);
+    there[1] = table.claim(second, there[1]);
+    bool is_new = false;
+    places(0) = table.insert(first, there[0], is_new);
+    places(1) = is_new;
+    places(2) = table.insert(second, there[1], is_new);
+    places(3) = is_new;
+  }
+};
+
+TEST(KeyTable, gives_places_of_their_own_to_keys_that_claim_the_same) {
+  const WorkerSpace space;
+  constexpr Offset size = 64;
+  const auto place_of = [](std::uint64_t key) { return spread(key) % size; };
+  std::uint64_t other = 2;
+  while (place_of(other) != place_of(1)) ++other;
+  for (const std::uint64_t second : {other, std::uint64_t(1)}) {
+    const ClaimTwice claim{detail::KeyTable(space, size), 1, second,
+                           allocate<Array<std::uint64_t, WorkerMemory>>("places", 4)};
+    parallel_for("claim", space, 1, claim);
+    space.fence();
+    const auto places = here(claim.places);
+    EXPECT_EQ(places[0], place_of(1));
+    EXPECT_EQ(places[1], 1u);
+    EXPECT_EQ(places[2] == places[0], second == 1);
+    EXPECT_EQ(places[3], second == 1 ? 0u : 1u);
+  }
+}
+
 TEST(KeyTable, without_places_has_no_key) {
   const std::vector<std::uint64_t> asked = {0, 1, pair_key(3, 4)};
   const FindKeys find{

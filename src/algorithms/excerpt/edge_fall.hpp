@@ -14,7 +14,7 @@ namespace gale::detail {
 /// the gradient, else on all threads of the host. Refers to the gradient.
 class EdgeFall {
  public:
-  /// With `expects_all` it begins with room for what all walls pass.
+  /// With `expects_all` it begins with room for the open edges of all walls.
   explicit EdgeFall(const DiscreteGradient& gradient, bool expects_all = false);
 
   /// Lets some edges fall, the higher ends first, and all that they come to. Returns those of these that are other

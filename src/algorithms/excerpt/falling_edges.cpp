@@ -36,8 +36,7 @@ struct FallFrom {
     Id high, low;
     PairedEdge edge;
   };
-  KOKKOS_FUNCTION Side look_at(std::uint64_t ends) const {
-    const Id high = pair_first(ends), low = pair_second(ends);
+  KOKKOS_FUNCTION Side look_at(Id high, Id low) const {
     return {high, low, edges.owned.has(high) ? edges(high, low) : PairedEdge{0, no_id}};
   }
 
@@ -65,7 +64,9 @@ struct FallFrom {
     FallenEdge edge = found.open(i);
     Offset count = 0;
     for (int step = 0; step < steps && edge.high != no_id && open.has_room_for(2); ++step) {
-      const Side side = look_at(pair_key(edge.high, edge.third)), other_side = look_at(ordered(edge.low, edge.third));
+      const bool is_low_higher = keys(edge.low) > keys(edge.third);
+      const Side side = look_at(edge.high, edge.third);
+      const Side other_side = look_at(is_low_higher ? edge.low : edge.third, is_low_higher ? edge.third : edge.low);
       const bool is_side_new = is_new(side), is_other_new = is_new(other_side);
       const FallenEdge one = is_side_new ? come_to(side, count) : no_edge();
       const FallenEdge other = is_other_new ? come_to(other_side, count) : no_edge();
@@ -78,12 +79,13 @@ struct FallFrom {
     open.append_to(found.open, &found.counts(0).open);
     add_in_turn(&found.counts(0).passed, count);
   }
+};
 
- private:
-  /// The key of an edge between two vertices.
-  KOKKOS_FUNCTION std::uint64_t ordered(Id a, Id b) const {
-    return keys(a) > keys(b) ? pair_key(a, b) : pair_key(b, a);
-  }
+/// Forgets what was left to other ranks, who were told.
+struct ForgetLeft {
+  Array<FallenCounts, WorkerMemory> counts;  ///< one
+
+  KOKKOS_FUNCTION void operator()(Offset i) const { counts(i).left = 0; }
 };
 
 /// Begins with some edges, which are left open.
@@ -94,7 +96,7 @@ struct BeginEdges {
   KOKKOS_FUNCTION void operator()(Offset i) const {
     const LaneMask lanes = lanes_here();
     Offset count = 0;
-    const FallFrom::Side side = fall.look_at(pair_key(ends(2 * i), ends(2 * i + 1)));
+    const FallFrom::Side side = fall.look_at(ends(2 * i), ends(2 * i + 1));
     const FallenEdge edge = fall.is_new(side) ? fall.come_to(side, count) : no_edge();
     ThreadStack<FallenEdge, 1> open;
     if (edge.high != no_id) open.push(edge);
@@ -108,7 +110,7 @@ struct BeginEdges {
 /// Puts the edges of an owned vertex that were passed in a row, in no order.
 struct PutPassed {
   EdgesInKernels edges;
-  NumberSet passed;
+  BitTable passed;
   Array<FallenEdge, WorkerMemory> put;
   Array<Offset, WorkerMemory> count;  ///< one
 
@@ -131,14 +133,16 @@ FallingEdges::FallingEdges(const DiscreteGradient& gradient, bool expects_all)
       keys_(gradient.order().keys_in<WorkerMemory>()) {
   found_.counts = allocate<decltype(found_.counts)>("GALE::fallen_counts", 1);
   fill("GALE::fallen_counts", space_, found_.counts, FallenCounts());
-  found_.passed = NumberSet("GALE::passed_edges", space_, edges_.count);
+  found_.passed = BitTable("GALE::passed_edges", space_, edges_.count);
 }
 
 std::vector<std::array<Id, 2>> FallingEdges::fall(const std::vector<std::array<Id, 2>>& edges) {
   if (edges.empty()) return {};
-  const Offset left_before = counts_.left, count = static_cast<Offset>(edges.size());
+  const Offset count = static_cast<Offset>(edges.size());
   make_room(space_, "GALE::ends_of_edges", ends_, 0, 2 * count);
   copy_to_device(ends_.data(), edges[0].data(), edges.size() * sizeof(edges[0]));
+  counts_.left = 0;
+  parallel_for("GALE::left_edges", space_, 1, ForgetLeft{found_.counts});
   reserve(count);
   parallel_for("GALE::begin_edges", space_, count, BeginEdges{{edges_, keys_, found_}, ends_});
   ChainLength length(count);
@@ -150,12 +154,10 @@ std::vector<std::array<Id, 2>> FallingEdges::fall(const std::vector<std::array<I
     launch_chain("GALE::fall_from_open", space_, open, FallFrom{edges_, keys_, found_}, length.next());
     counts_ = counted(space_, found_.counts);
   }
-  if (counts_.left == left_before) return {};
-  const Array<std::array<Id, 2>, WorkerMemory> left =
-      Kokkos::subview(found_.left, std::make_pair(std::size_t(left_before), std::size_t(counts_.left)));
-  auto left_here = vector_of(left);
-  sort_distinct("GALE::left_edges", left_here);
-  return left_here;
+  if (counts_.left == 0) return {};
+  auto left = vector_of<std::array<Id, 2>, WorkerMemory>(first_of(found_.left, counts_.left));
+  sort_distinct("GALE::left_edges", left);
+  return left;
 }
 
 std::vector<std::array<Id, 3>> FallingEdges::passed() const {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include <gale/algorithms/gradient/edges_in_kernels.hpp>
+#include <gale/base/bit_table.hpp>
 #include <gale/base/launch_chain.hpp>
-#include <gale/base/number_set.hpp>
 
 namespace gale::detail {
 
@@ -15,8 +15,8 @@ struct FallenEdge {
   Id high, low, third;
 };
 
-/// How many edges kernels have passed, those that they have left to other ranks, some more than once, and those that
-/// threads have left open, for launches to go on from in this order.
+/// How many edges kernels have passed, those that they have left to other ranks, some more than once, since fall() was
+/// called, and those that threads have left open, for launches to go on from in this order.
 struct FallenCounts {
   Offset passed = 0, left = 0, open = 0;
   LaunchPart part;
@@ -24,7 +24,7 @@ struct FallenCounts {
 
 /// Where kernels put edges that fall. Copies share it.
 struct FallenEdges {
-  NumberSet passed;
+  BitTable passed;
   Array<FallenEdge, WorkerMemory> open;
   Array<std::array<Id, 2>, WorkerMemory> left;
   Array<FallenCounts, WorkerMemory> counts;  ///< one
@@ -32,12 +32,12 @@ struct FallenEdges {
 
 /// Edges that fall along a gradient that kernels found: from one that is paired with a triangle to the other edges of
 /// that triangle, and so on. Each is passed once. A thread goes some steps down one way after the other, and leaves the
-/// rest to the next launch. Takes a bit for each number of an edge in the workers' memory, and 20 bytes for each edge
-/// that is left open; where there is room up to 340 for each of those that it begins with, or 0.7 MB for few of them.
-/// Refers to the gradient.
+/// rest to the next launch. Takes a bit for each number of an edge in the workers' memory (14 a vertex of a grid), and
+/// 20 bytes for each edge that is left open or to others; where there is room up to 340 for each of those that it
+/// begins with, or 0.7 MB for few of them; 42 MB at most to begin with where many are expected. Refers to the gradient.
 class FallingEdges {
  public:
-  /// Begins with room for about as many edges as all walls pass, if these are to be expected. Throws OutOfMemory.
+  /// Begins with room for about as many open edges as all walls have, if these are to be expected. Throws OutOfMemory.
   FallingEdges(const DiscreteGradient& gradient, bool expects_all);
 
   /// Lets some edges fall, the higher ends first, and all that they come to. Returns those of these that are other

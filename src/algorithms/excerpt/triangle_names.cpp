@@ -1,5 +1,5 @@
 #include <gale/algorithms/excerpt/triangle_names.hpp>
-#include <gale/base/number_set.hpp>
+#include <gale/base/bit_table.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/transfer.hpp>
 
@@ -18,7 +18,7 @@ Vertices vertices_of(const Array<TriangleVertices, WorkerMemory>& triangles) {
 struct MarkName {
   Vertices vertices;
   VertexNames names;
-  NumberSet passed;
+  BitTable passed;
 
   KOKKOS_FUNCTION void operator()(Offset i) const { passed.insert_again(names[vertices(i)]); }
 };
@@ -51,7 +51,7 @@ void rename_all(const TrianglesThere& triangles, const VertexNames& names, const
 
 std::vector<std::uint64_t> names_passed(const TrianglesThere& triangles, const VertexNames& names, Id count) {
   const WorkerSpace space;
-  const NumberSet passed("GALE::names_passed", space, count);
+  const BitTable passed("GALE::names_passed", space, count);
   for (const auto& part : triangles) {
     const Vertices vertices = vertices_of(part);
     parallel_for("GALE::names_passed", space, vertices.extent(0), MarkName{vertices, names, passed});

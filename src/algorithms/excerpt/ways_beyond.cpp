@@ -7,6 +7,7 @@
 #include <gale/algorithms/excerpt/gathering.hpp>
 #include <gale/algorithms/excerpt/path_steps.hpp>
 #include <gale/algorithms/excerpt/ways_beyond.hpp>
+#include <gale/base/parallel.hpp>
 #include <gale/base/sort.hpp>
 #include <gale/base/stop.hpp>
 

@@ -86,9 +86,9 @@ struct EndAtEntry {
 /// Entries of paths in a memory. Copies share them.
 template <class Memory>
 struct CondensedPaths {
-  Array<Id, Memory> next;              ///< of each entry, for jump()
-  Array<std::uint64_t, Memory> words;  ///< a bit for each simplex: whether it has an entry; none: all have, in order
-  Array<Id, Memory> before;            ///< how many have before those of each word
+  Array<Id, Memory> next;                    ///< of each entry, for jump()
+  Array<const std::uint64_t, Memory> words;  ///< a bit a simplex: whether it has an entry; none: all have, in order
+  Array<const Id, Memory> before;            ///< how many have before those of each word
 };
 
 /// Where some paths begin and end, as with_ends() has it of all simplices: the entries of those of `starts`, which are
@@ -123,12 +123,14 @@ CondensedPaths<MemoryOf<Space>> condensed_paths(const Space& space, const Mirror
 /// Finds the end of a simplex' path, from the next one on it that has an entry: its place, no_id for outside.
 template <class Memory>
 struct EndOfPath {
-  Array<const Id, Memory> ends;  ///< of entries, after jump()
-  RankedBits entries;            ///< no words: simplices are entries
+  Array<const Id, Memory> ends;  ///< of entries: CondensedPaths::next after jump()
+  Array<const std::uint64_t, Memory> words;
+  Array<const Id, Memory> before;
   Array<const Id, Memory> successors;
 
   KOKKOS_FUNCTION Id operator()(Id at) const {
-    if (entries.words == nullptr) return place_of_end(ends(at));
+    if (words.extent(0) == 0) return place_of_end(ends(at));
+    const RankedBits entries{words.data(), before.data(), nullptr};
     while (at >= 0 && !entries.has(at)) at = successors(at);
     return at < 0 ? no_id : place_of_end(ends(entries.rank(at)));
   }

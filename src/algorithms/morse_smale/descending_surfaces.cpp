@@ -160,10 +160,11 @@ FoundConnectors ConnectorsHere::finish(const WiderGradient& wider, const Critica
   std::vector<std::pair<Id, DescendingWall::Part>> unfinished;
   if (are_by_kernels_) {
     try {
-      rows_ = std::make_unique<WiderRows>(wider);
-      return device_connectors(rows_->rows(), triangles_, places);
+      const auto rows = std::make_shared<const WiderRows>(wider);
+      FoundConnectors found = device_connectors(rows->rows(), triangles_, places);
+      found.rows = rows;
+      return found;
     } catch (const OutOfMemory&) {
-      rows_.reset();
       for (std::size_t i = 0; i < triangles_.size(); ++i) unfinished.push_back({static_cast<Id>(i), {}});
     }
   }
@@ -184,7 +185,7 @@ FoundConnectors ConnectorsHere::finish(const WiderGradient& wider, const Critica
         tracer.add_connectors(places, place);
       });
   for (auto& tracer : tracers) found_->tracers.push_back(std::move(tracer));
-  return {gathered_connectors(found_->tracers, triangles_.size()), {}, {}};
+  return {gathered_connectors(found_->tracers, triangles_.size()), {}, {}, {}};
 }
 
 }  // namespace gale::detail

@@ -96,6 +96,12 @@ void append_paths(const WorkerSpace& space, const GrownWalls& walls, const std::
   found.triangles.push_back(cells);
 }
 
+/// Says that walls have more edges together than they may have, however much memory there is.
+class TooManyEdges : public OutOfMemory {
+ public:
+  using OutOfMemory::OutOfMemory;
+};
+
 /// Finds connectors in the descending walls of critical triangles, of which some grow side by side. Time and memory
 /// grow with all walls together.
 class Connectors {
@@ -115,9 +121,14 @@ class Connectors {
       try {
         add_paths(begin, grow(begin, size, size > 1 ? most_together_ : WallTable::most_triangles));
         return;
-      } catch (const OutOfMemory&) {
+      } catch (const TooManyEdges&) {
         if (size == 1) throw;
-        found.bring();
+      } catch (const OutOfMemory&) {
+        if (!found.triangles.empty()) {  // the memory that these take may suffice
+          found.bring();
+          return add(begin, end);
+        }
+        if (size == 1) throw;
       }
     }
     add(begin, begin + size / 2);
@@ -135,7 +146,7 @@ class Connectors {
       reserve(counts_.part.end, open, most_edges);
       launch_chain("GALE::grow_walls", space_, open, GrowWalls{rows_, found_});
       counts_ = counted(space_, found_.counts);
-      if (counts_.edges > most_edges) throw OutOfMemory("walls of more than " + std::to_string(most_edges) + " edges");
+      if (counts_.edges > most_edges) throw TooManyEdges("walls of more than " + std::to_string(most_edges) + " edges");
     }
     const GrownWalls grown{rows_, found_, WallTable(space_, found_.edges.places()),
                            allocate<InWorkers<WallRim>>("GALE::wall_rims", counts_.rims)};

@@ -23,8 +23,8 @@ using Ids = Array<Id, MemoryOf<Space>>;
 /// Where the paths of vertices end, by input id.
 template <class Memory>
 struct EndOfVertex {
-  Array<const Id, Memory> starts;  ///< of each vertex (GALE's id) the simplex where its path starts; none: itself
-  Array<const Id, Memory> ends;    ///< of each simplex, see jump()
+  Array<const Id, Memory> starts;  ///< of each vertex (GALE's id) the entry where its path starts; none: itself
+  Array<const Id, Memory> ends;    ///< of each entry, see jump()
   Array<const Id, Memory> names;   ///< of places of ends; none: the places
   OtherIds input;
   Array<Id, Memory> manifolds;  ///< where ids of the input are GALE's, it may be `starts` or, of none, `ends`
@@ -119,8 +119,9 @@ Array<GlobalId, HostMemory> places_among_all(const PathSimplices& simplices) {
 Mirrored<Id> manifolds_on_ranks(const DiscreteGradient& gradient, PathSimplices::Kind kind, PathExits* exits) {
   const auto simplices = PathSimplices::make(gradient, kind);
   const Ranks& ranks = gradient.mesh().exchange().ranks();
-  const PathsOnRanks paths(*simplices, places_among_all(*simplices),
-                           exits == nullptr ? std::vector<Id>() : exits->starts.simplices);
+  const std::vector<Id> none;
+  const std::vector<Id>& others = exits == nullptr ? none : exits->starts.simplices;
+  const PathsOnRanks paths(*simplices, places_among_all(*simplices), others);
   Array<const Id, HostMemory> places;
   together(ranks, [&] {
     if (exits != nullptr) exits->links = paths.exits_from(exits->starts.simplices);

@@ -53,19 +53,20 @@ DescendingSurfaces descending_surfaces(const DiscreteGradient& gradient, const C
                                        const CriticalPlaces& places, bool want_walls, bool want_connectors, int threads,
                                        const TurnedEdges* turned = nullptr, Paths told = Paths::whole);
 
+struct WallRows;
+class WiderGradient;
+class WiderRows;
+
 /// Saddle connectors, the last ones' triangles where kernels found them.
 struct FoundConnectors {
   Separatrices<TriangleVertices> paths;                          ///< with the triangles of the first ones
   std::vector<Array<TriangleVertices, WorkerMemory>> triangles;  ///< those that follow, one part after the other
-  VertexNames names{};  ///< of their vertices, for kernels, while there is what these have read
+  VertexNames names{};                                           ///< of their vertices, for kernels
+  std::shared_ptr<const WiderRows> rows;                         ///< where names are, unless they are the mesh's
 
   /// Has paths have all triangles.
   void bring();
 };
-
-struct WallRows;
-class WiderGradient;
-class WiderRows;
 
 /// The saddle connectors of one rank's 2-saddles: first those of walls inside its part, then the others, when what
 /// these reach elsewhere is known. Until then it keeps these walls as far as they are in the part, up to a triangle a
@@ -80,7 +81,7 @@ class ConnectorsHere {
   /// begin.
   const std::vector<std::array<Id, 2>>& exits() const { return exits_; }
 
-  /// All connectors, once, while this is there. `wider` has all that is reached from the exits; `places` are those of
+  /// All connectors, once. `wider` has all that is reached from the exits; `places` are those of
   /// critical simplices there, and edge_places[i] is that of the rank's i-th critical edge.
   FoundConnectors finish(const WiderGradient& wider, const CriticalPlaces& places, const std::vector<Id>& edge_places);
 
@@ -93,7 +94,6 @@ class ConnectorsHere {
   const int threads_;
   const bool are_by_kernels_;
   std::unique_ptr<Found> found_;
-  std::unique_ptr<WiderRows> rows_;
   std::vector<std::array<Id, 2>> exits_;
 };
 

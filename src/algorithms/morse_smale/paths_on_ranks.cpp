@@ -2,123 +2,17 @@
 #include <type_traits>
 
 #include <gale/algorithms/gradient/gradient_store.hpp>
-#include <gale/algorithms/morse_smale/condensed_paths.hpp>
-#include <gale/algorithms/morse_smale/first_cells.hpp>
+#include <gale/algorithms/morse_smale/paths_here.hpp>
 #include <gale/algorithms/morse_smale/paths_on_ranks.hpp>
-#include <gale/base/atomic.hpp>
 #include <gale/base/memory.hpp>
+#include <gale/base/momentary.hpp>
 #include <gale/base/sort.hpp>
+#include <gale/base/transfer.hpp>
 #include <gale/mesh/exchange/messages.hpp>
 
 namespace gale::detail {
 
 namespace {
-
-/// What a rank finds of its paths by itself.
-struct PathsHere {
-  Array<Id, HostMemory> exits;    ///< ascending
-  EndsHere ends;                  ///< numbers of the critical ones, or after all of these the exits'
-  Mirrored<Id> starts;            ///< of vertices' paths, by entry; none: themselves
-  Array<Id, HostMemory> reached;  ///< the places of exits that paths from other simplices come to, ascending
-};
-
-/// The exits that paths come to. Copies share it.
-template <class Memory>
-struct ReachedExits {
-  Id criticals;
-  Array<char, Memory> is_reached;
-
-  /// Marks the exit at which a path ends here, if it is one.
-  KOKKOS_FUNCTION void mark(Id end) const {
-    if (end >= criticals) atomic_write(&is_reached(end - criticals), char(1));
-  }
-};
-
-/// Marks an exit that the path from another simplex comes to.
-template <class Memory>
-struct MarkReached {
-  Array<const Id, Memory> ends, exits;
-  ReachedExits<Memory> reached;
-
-  KOKKOS_FUNCTION void operator()(Offset i) const {
-    const Id end = place_of_end(ends(i));
-    if (end >= reached.criticals && exits(end - reached.criticals) != i) reached.mark(end);
-  }
-};
-
-/// Marks the exits that paths from other simplices come to; of many simplices at once none does, mostly.
-template <class Space>
-void mark_reached(const Space& space, const MarkReached<MemoryOf<Space>>& mark) {
-  const Offset all = mark.ends.extent(0);
-  if constexpr (is_device<Space>) {
-    parallel_for("GALE::reached_exits", space, all, mark);
-    space.fence();
-  } else {
-    constexpr Offset block = 64;
-    const Id* const ends = mark.ends.data();
-    for_parts("GALE::reached_exits", all, threads_for(all), [&](int, Offset first, Offset last) {
-      for (Offset begin = first; begin < last; begin += block) {
-        const Offset end = std::min(begin + block, last);
-        Id least = 0;
-        for (Offset i = begin; i < end; ++i) least = std::min(least, ends[i]);
-        if (least > end_at(mark.reached.criticals)) continue;
-        for (Offset i = begin; i < end; ++i) mark(i);
-      }
-    });
-  }
-}
-
-/// Follows all paths, and marks the exits that `others` come to, or are.
-template <class Space>
-PathsHere follow_here(const Space& space, const PathSimplices& simplices, const std::vector<Id>& others) {
-  using Memory = MemoryOf<Space>;
-  const auto successors = simplices.successors().in<Memory>();
-  const Interval inner = simplices.inner(), owned = simplices.mesh().owned_vertices();
-  const Offset shared = static_cast<Offset>(successors.extent(0)) - inner.size();
-  const Id criticals = static_cast<Id>(simplices.critical().size());
-  const Array<Id, Memory> exits = selected(
-      "GALE::find_exits", space, shared,
-      KOKKOS_LAMBDA(Offset i) { return successors(inner.outside(i)) == DiscreteGradient::elsewhere; });
-  parallel_for(
-      "GALE::find_exits", space, exits.extent(0), KOKKOS_LAMBDA(Offset i) { exits(i) = inner.outside(exits(i)); });
-  const ReachedExits<Memory> reached{criticals, allocate<Array<char, Memory>>("GALE::reached_exits", exits.extent(0))};
-  fill("GALE::reached_exits", space, reached.is_reached, char(0));
-  const Array<Id, Memory> starts =
-      simplices.are_vertices() ? Array<Id, Memory>() : first_cells(space, simplices.mesh());
-  CondensedPaths<Memory> paths;
-  if (starts.extent(0) == 0) {
-    const Array<Id, Memory> next = with_ends(space, simplices.successors(), simplices.critical());
-    parallel_for(
-        "GALE::name_exits", space, exits.extent(0),
-        KOKKOS_LAMBDA(Offset i) { next(exits(i)) = end_at(criticals + static_cast<Id>(i)); });
-    jump(space, next);
-    mark_reached(space, MarkReached<Memory>{next, exits, reached});
-    paths.next = next;
-  } else {
-    paths = condensed_paths(space, simplices.successors(), simplices.critical(), starts, exits);
-    jump(space, paths.next);
-  }
-  const EndOfPath<Memory> end{paths.next, {paths.words.data(), paths.before.data(), nullptr}, successors};
-  if (starts.extent(0) != 0) {
-    parallel_for(
-        "GALE::reached_exits", space, shared, KOKKOS_LAMBDA(Offset i) {
-          const Id simplex = inner.outside(i);
-          if (successors(simplex) >= 0) reached.mark(end(simplex));
-        });
-    parallel_for(
-        "GALE::reached_exits", space, owned.size(), KOKKOS_LAMBDA(Offset i) {
-          const Id entry = starts(owned.first + static_cast<Id>(i));
-          if (entry != no_id) reached.mark(place_of_end(end.ends(entry)));
-        });
-  }
-  const auto more = in_memory<Memory>(others);
-  parallel_for(
-      "GALE::reached_exits", space, more.extent(0), KOKKOS_LAMBDA(Offset i) { reached.mark(end(more(i))); });
-  const Array<Id, Memory> found = selected(
-      "GALE::reached_exits", space, exits.extent(0), KOKKOS_LAMBDA(Offset i) { return reached.is_reached(i) != 0; });
-  space.fence();
-  return {on_host(exits), {paths.next, paths.words, paths.before}, starts, on_host(found)};
-}
 
 /// The cells that have a ghost.
 template <class Space>
@@ -232,8 +126,7 @@ PathsOnRanks::PathsOnRanks(const PathSimplices& simplices, const std::vector<Id>
 void PathsOnRanks::begin(const std::vector<Id>& others) {
   Array<Id, HostMemory> reached;
   together(ranks(), [&] {
-    const PathsHere here = in_worker_or_host_space(
-        simplices_.successors().on_device(), [&](const auto& space) { return follow_here(space, simplices_, others); });
+    const PathsHere here = follow_here(simplices_, others);
     exits_ = here.exits;
     ends_ = here.ends;
     starts_ = here.starts;
@@ -246,12 +139,7 @@ void PathsOnRanks::begin(const std::vector<Id>& others) {
 }
 
 std::vector<Id> PathsOnRanks::ends_of(const std::vector<Id>& simplices) const {
-  return in_worker_or_host_space(ends_here().on_device(), [&](const auto& space) {
-    using Memory = MemoryOf<std::decay_t<decltype(space)>>;
-    const RankedBits entries{ends_.words.in<Memory>().data(), ends_.before.in<Memory>().data(), nullptr};
-    return results_at("GALE::ends_of", space, simplices,
-                      EndOfPath<Memory>{ends_here().in<Memory>(), entries, simplices_.successors().in<Memory>()});
-  });
+  return detail::ends_of(ends_, simplices_, simplices);
 }
 
 ExitLinks PathsOnRanks::exits_from(const std::vector<Id>& simplices) const {

@@ -5,8 +5,9 @@
 #include <vector>
 
 #include <gale/algorithms/discrete_gradient.hpp>
-#include <gale/algorithms/morse_smale/jump.hpp>
+#include <gale/algorithms/morse_smale/paths_here.hpp>
 #include <gale/base/hash_table.hpp>
+#include <gale/base/mirrored.hpp>
 
 namespace gale::detail {
 
@@ -77,13 +78,6 @@ struct ExitLinks {
   Array<const Id, HostMemory> exits;        ///< GALE's ids, ascending
   Array<const ExitLink, HostMemory> links;  ///< of those that some path comes to; the others' are unwritten
   std::vector<Id> wanted;                   ///< the places of those that paths were asked for, once each
-};
-
-/// How paths end on one rank: those of entries, as condensed_paths.hpp has them.
-struct EndsHere {
-  Mirrored<Id> of_entries;
-  Mirrored<std::uint64_t> words;  ///< of the simplices that have entries; none: all have
-  Mirrored<Id> before;
 };
 
 /// The ends of paths along the successors of a mesh on several ranks, by pointer jumping: first on each rank, then from

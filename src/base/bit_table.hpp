@@ -9,15 +9,15 @@
 
 namespace gale::detail {
 
-/// Numbers below a bound that kernels insert: a bit each, in the workers' memory. Where many of them are inserted it
-/// has less memory than a table of keys, and one question less for it. Copies share it.
-class NumberSet {
+/// Different numbers below a bound that kernels insert: a bit each, in the workers' memory. Where many are inserted it
+/// is smaller than a KeyTable, and asks memory once where that asks twice. Copies share it.
+class BitTable {
  public:
-  /// Makes a set of no numbers.
-  NumberSet() = default;
+  /// Makes a table that nobody may ask, nor insert to.
+  BitTable() = default;
 
-  /// Makes an empty set of numbers below `bound`. Throws OutOfMemory.
-  NumberSet(const char* label, const WorkerSpace& space, Offset bound)
+  /// Makes an empty table of numbers below `bound`. Throws OutOfMemory.
+  BitTable(const char* label, const WorkerSpace& space, Offset bound)
       : words_(allocate<Array<std::uint64_t, WorkerMemory>>(label, (static_cast<std::size_t>(bound) + 63) >> 6)) {
     fill(label, space, words_, std::uint64_t(0));
   }
@@ -35,7 +35,7 @@ class NumberSet {
   /// Whether an earlier kernel has inserted a number.
   KOKKOS_FUNCTION bool has(Offset number) const { return (words_(number >> 6) & bit_of(number)) != 0; }
 
-  /// The bits, 64 a word.
+  /// The bits, 64 a word; those from the bound on are 0.
   const Array<std::uint64_t, WorkerMemory>& words() const { return words_; }
 
  private:
