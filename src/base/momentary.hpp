@@ -73,25 +73,29 @@ struct WriteValues {
 
 /// value(place), a functor's for kernels in a space, for each of some places.
 template <class Space, class Value>
-auto results_at(const char* label, const Space& space, const std::vector<Id>& places, const Value& value) {
+auto results_at(const char* label, const Space& space, const Array<const Id, HostMemory>& places, const Value& value) {
   using T = std::decay_t<std::invoke_result_t<const Value&, Id>>;
   using Memory = MemoryOf<Space>;
-  auto values = unwritten<T>(places.size());
-  if (places.empty()) return values;
-  const Array<const Id, HostMemory> given(places.data(), places.size());
+  auto values = unwritten<T>(places.extent(0));
+  if (values.empty()) return values;
   const auto write_on = [&](const Array<const Id, Memory>& from, const Array<T, Memory>& to) {
-    parallel_for(label, space, static_cast<Offset>(places.size()), WriteValues<T, Memory, Value>{value, from, to});
+    parallel_for(label, space, static_cast<Offset>(from.extent(0)), WriteValues<T, Memory, Value>{value, from, to});
   };
   if constexpr (is_device<Space>) {
-    const Momentary<const Id, Memory> from(label, given);
-    const Momentary<T, Memory> to(label, places.size());
+    const Momentary<const Id, Memory> from(label, places);
+    const Momentary<T, Memory> to(label, values.size());
     write_on(from.array(), to.array());
     space.fence();
     copy_from_device(values.data(), to.array().data(), values.size() * sizeof(T));
   } else {
-    write_on(given, Array<T, Memory>(values.data(), values.size()));
+    write_on(places, Array<T, Memory>(values.data(), values.size()));
   }
   return values;
+}
+
+template <class Space, class Value>
+auto results_at(const char* label, const Space& space, const std::vector<Id>& places, const Value& value) {
+  return results_at(label, space, Array<const Id, HostMemory>(places.data(), places.size()), value);
 }
 
 /// Some of the entries, read where all were made.

@@ -1,4 +1,5 @@
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include <gale/algorithms/gradient/gradient_store.hpp>
@@ -8,6 +9,7 @@
 #include <gale/algorithms/morse_smale/parts.hpp>
 #include <gale/algorithms/morse_smale/paths_on_ranks.hpp>
 #include <gale/base/error.hpp>
+#include <gale/base/momentary.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/transfer.hpp>
 #include <gale/mesh/exchange/exchange_plan.hpp>
@@ -66,7 +68,9 @@ Mirrored<Id> manifolds_in(const Space& space, const DiscreteGradient& gradient, 
 template <class Space>
 Mirrored<Id> renamed_in(const Space& space, const Mirrored<Id>& manifolds, const std::vector<Id>& names) {
   const auto from = manifolds.in<MemoryOf<Space>>();
-  const auto name = in_memory<MemoryOf<Space>>(Array<const Id, HostMemory>(names.data(), names.size()));
+  const Momentary<const Id, MemoryOf<Space>> given("GALE::manifold_names",
+                                                   Array<const Id, HostMemory>(names.data(), names.size()));
+  const Array<const Id, MemoryOf<Space>> name = given.array();
   const auto to = allocate<Ids<Space>>("GALE::renamed_manifolds", from.extent(0));
   parallel_for(
       "GALE::rename_manifolds", space, from.extent(0),
@@ -77,7 +81,7 @@ Mirrored<Id> renamed_in(const Space& space, const Mirrored<Id>& manifolds, const
 
 /// The manifolds of a rank's own vertices, and what is still to be done of its ghosts'.
 struct OwnManifolds {
-  Array<Id, HostMemory> given;  ///< of the vertices that others have as ghosts, as `from_owners` gives them
+  std::vector<Id> given;  ///< of the vertices that others have as ghosts, as `from_owners` gives them
   std::function<Mirrored<Id>(const Array<Id, HostMemory>& taken)> finish;  ///< once others have given theirs
 };
 
@@ -86,15 +90,13 @@ OwnManifolds own_manifolds(const Space& space, const PathsOnRanks& paths, const 
   using Memory = MemoryOf<Space>;
   const Mesh& mesh = paths.simplices().mesh();
   const ExchangePlan& plan = mesh.exchange().from_owners();
+  const Momentary<const Id, Memory> names_there("GALE::names_of_ends", names);
   const Ids<Space> manifolds =
       manifolds_of(space, mesh, mesh.owned_vertices(),
-                   {paths.starts().in<Memory>(), paths.ends_here().in<Memory>(), in_memory<Memory>(names), {}, {}});
-  const Array<Id, Memory> places = in_memory<Memory>(plan.given_places());
-  const auto given = allocate<Ids<Space>>("GALE::given_manifolds", places.extent(0));
-  parallel_for(
-      "GALE::given_manifolds", space, places.extent(0), KOKKOS_LAMBDA(Offset i) { given(i) = manifolds(places(i)); });
-  space.fence();
-  return {on_host(given), [space, &plan, manifolds](const Array<Id, HostMemory>& taken) -> Mirrored<Id> {
+                   {paths.starts().in<Memory>(), paths.ends_here().in<Memory>(), names_there.array(), {}, {}});
+  auto given = results_at("GALE::given_manifolds", space, Array<const Id, HostMemory>(plan.given_places()),
+                          EntryAt<Id, Memory>{manifolds});
+  return {std::move(given), [space, &plan, manifolds](const Array<Id, HostMemory>& taken) -> Mirrored<Id> {
             plan.fill_slots(space, taken, manifolds.data());
             return manifolds;
           }};
@@ -145,7 +147,8 @@ Mirrored<Id> ends_of_vertices(const PathsOnRanks& paths, const Array<const Id, H
     own = in_worker_or_host_space(paths.ends_here().on_device(),
                                   [&](const auto& space) { return own_manifolds(space, paths, names); });
   });
-  const auto taken = paths.simplices().mesh().exchange().from_owners().fetch(paths.ranks(), own.given);
+  const auto taken = paths.simplices().mesh().exchange().from_owners().fetch(
+      paths.ranks(), Array<Id, HostMemory>(own.given.data(), own.given.size()));
   Mirrored<Id> ends;
   together(paths.ranks(), [&] { ends = own.finish(taken.entries); });
   return ends;

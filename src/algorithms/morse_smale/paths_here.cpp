@@ -117,7 +117,9 @@ PathsHere follow_in(const Space& space, const PathSimplices& simplices, const st
   const auto paths = simplices.are_vertices() ? follow_vertices(space, simplices, exits, reached)
                                               : follow_cells(space, simplices, exits, reached, starts);
   const EndOfPath<Memory> end{paths.next, paths.words, paths.before, successors};
-  const auto more = in_memory<Memory>(others);
+  const Momentary<const Id, Memory> given("GALE::other_paths",
+                                          Array<const Id, HostMemory>(others.data(), others.size()));
+  const Array<const Id, Memory> more = given.array();
   parallel_for(
       "GALE::reached_exits", space, more.extent(0), KOKKOS_LAMBDA(Offset i) { reached.mark(end(more(i))); });
   const Ids<Space> found = selected(
