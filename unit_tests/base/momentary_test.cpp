@@ -46,7 +46,7 @@ TEST(Momentary, lets_a_space_tell_values_at_places) {
   const std::vector<Offset> squares{25, 0, 49, 49, 1600000000};
   EXPECT_EQ(detail::results_at("square", WorkerSpace(), places, Square()), squares);
   EXPECT_EQ(detail::results_at("square", HostExecutionSpace(), places, Square()), squares);
-  EXPECT_TRUE(detail::results_at("square", WorkerSpace(), {}, Square()).empty());
+  EXPECT_TRUE(detail::results_at("square", WorkerSpace(), std::vector<Id>(), Square()).empty());
 }
 
 }  // namespace gale::test
