@@ -62,6 +62,20 @@ void mark_reached(const Space& space, const MarkReached<MemoryOf<Space>>& mark) 
   }
 }
 
+/// Marks the exits that paths come to from some cells, or from those outside an interval.
+template <class Memory>
+struct MarkFromCells {
+  EndOfPath<Memory> end;
+  ReachedExits<Memory> reached;
+  Array<const Id, Memory> cells;  ///< none: those outside
+  Interval inner;
+
+  KOKKOS_FUNCTION void operator()(Offset i) const {
+    const Id cell = cells.extent(0) == 0 ? inner.outside(i) : cells(i);
+    if (end.successors(cell) >= 0) reached.mark(end(cell));
+  }
+};
+
 /// Follows the paths of all vertices.
 template <class Space>
 CondensedPaths<MemoryOf<Space>> follow_vertices(const Space& space, const PathSimplices& simplices,
@@ -87,16 +101,17 @@ CondensedPaths<MemoryOf<Space>> follow_cells(const Space& space, const PathSimpl
   const auto successors = simplices.successors().in<Memory>();
   const EndOfPath<Memory> end{paths.next, paths.words, paths.before, successors};
   const Interval inner = simplices.inner(), owned = simplices.mesh().owned_vertices();
-  parallel_for(
-      "GALE::reached_exits", space, static_cast<Offset>(successors.extent(0)) - inner.size(), KOKKOS_LAMBDA(Offset i) {
-        const Id cell = inner.outside(i);
-        if (successors(cell) >= 0) reached.mark(end(cell));
-      });
+  const bool is_grid = simplices.mesh().grid() != nullptr;
+  const Momentary<const Id, Memory> shared("GALE::shared_cells", simplices.shared());
+  parallel_for("GALE::reached_exits", space,
+               is_grid ? static_cast<Offset>(successors.extent(0)) - inner.size() : simplices.shared().extent(0),
+               MarkFromCells<Memory>{end, reached, shared.array(), inner});
   parallel_for(
       "GALE::reached_exits", space, owned.size(), KOKKOS_LAMBDA(Offset i) {
         const Id entry = starts(owned.first + static_cast<Id>(i));
         if (entry != no_id) reached.mark(place_of_end(end.ends(entry)));
       });
+  space.fence();
   return paths;
 }
 

@@ -53,10 +53,10 @@ PathSimplices::PathSimplices(const DiscreteGradient& gradient, Kind kind)
       input_(are_vertices_ ? mesh().vertices_in_input() : mesh().cells_in_input()),
       vertex_input_(mesh().vertices_in_input()) {
   if (are_vertices_ || mesh().grid() != nullptr) return;
-  const auto shared = in_worker_or_host_space(
+  shared_ = in_worker_or_host_space(
       mesh(), [&](const auto& space) -> Array<Id, HostMemory> { return on_host(shared_cells(space, mesh())); });
-  for (std::size_t i = 0; i < shared.extent(0); ++i)
-    shared_cells_.insert(static_cast<std::uint64_t>(input_[shared(i)])).first = shared(i);
+  for (std::size_t i = 0; i < shared_.extent(0); ++i)
+    shared_cells_.insert(static_cast<std::uint64_t>(input_[shared_(i)])).first = shared_(i);
 }
 
 PathSimplices::PathSimplices(const VertexOrder& order, const Mirrored<Id>& successors, const std::vector<Id>& ends)

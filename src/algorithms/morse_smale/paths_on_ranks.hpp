@@ -42,6 +42,9 @@ class PathSimplices {
   /// grid's.
   Interval inner() const;
 
+  /// Cells that aren't a grid's and have a ghost: those that other ranks hold, too.
+  const Array<const Id, HostMemory>& shared() const { return shared_; }
+
   /// The ranks that know the successors of some simplices. Finds them where successors are.
   std::vector<int> owners(const std::vector<Id>& simplices) const;
 
@@ -54,7 +57,8 @@ class PathSimplices {
   const Mirrored<Id>& successors_;
   const std::vector<Id>& critical_;
   const OtherIds input_, vertex_input_;
-  HashTable<Id> shared_cells_;  ///< of cells that aren't a grid's: input cell -> GALE's, of those that have a ghost
+  Array<const Id, HostMemory> shared_;
+  HashTable<Id> shared_cells_;  ///< input cell -> GALE's, of shared()
 };
 
 /// Where a path goes on or ends.
