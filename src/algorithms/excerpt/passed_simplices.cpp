@@ -6,12 +6,11 @@
 
 #include <gale/algorithms/excerpt/excerpt_mesh.hpp>
 #include <gale/algorithms/excerpt/numbered_set.hpp>
+#include <gale/algorithms/excerpt/passed_cells.hpp>
 #include <gale/algorithms/excerpt/passed_simplices.hpp>
 #include <gale/algorithms/excerpt/triangle_names.hpp>
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/base/error.hpp>
-#include <gale/base/ordered.hpp>
-#include <gale/base/sort.hpp>
 #include <gale/base/stop.hpp>
 
 namespace gale::detail {
@@ -32,10 +31,8 @@ class PassedSimplices {
  public:
   /// Begins with what is on paths, and with critical simplices: cells have numbers then.
   PassedSimplices(const WiderGradient& wider, const Separatrices<Id>& descending, const Separatrices<Id>& ascending)
-      : wider_(wider.simplices()), cells_(wider_->cells()), vertex_count_(wider_->vertices()) {
-    mark_cells(wider.critical(), ascending);
-    number_cells();
-    if (4 * static_cast<Offset>(cell_of_.size()) < wider_->vertices()) mark_vertices(wider.critical(), descending);
+      : wider_(wider.simplices()), cells_(*wider_, wider.critical(), ascending), vertex_count_(wider_->vertices()) {
+    if (4 * cells_.count() < wider_->vertices()) mark_vertices(wider.critical(), descending);
   }
 
   /// Adds what is on connectors, and returns these with numbers. Afterwards vertices have numbers.
@@ -49,7 +46,7 @@ class PassedSimplices {
   }
 
   Id number(Id vertex) const { return vertices_ ? (*vertices_)[wider_->names()[vertex]] : wider_->names()[vertex]; }
-  Id cell_number(Id cell) const { return number_of_cell_[cells_[wider_->cell_name(cell)]]; }
+  Id cell_number(Id cell) const { return cells_.number(cell); }
 
   template <std::size_t N>
   std::array<Id, N> numbers(std::array<Id, N> simplex) const {
@@ -68,14 +65,7 @@ class PassedSimplices {
   }
 
   /// Has cells' numbers be GALE's ids in the mesh that was made.
-  void renumber_cells(const Mesh& mesh) {
-    std::vector<Id> internal(mesh.cells());
-    const OtherIds input = mesh.cells_in_input();
-    parallel_for("GALE::cells_of_excerpt", HostExecutionSpace(), mesh.cells(),
-                 [&](Offset t) { internal[input[static_cast<Id>(t)]] = static_cast<Id>(t); });
-    parallel_for("GALE::cells_of_excerpt", HostExecutionSpace(), number_of_cell_.size(),
-                 [&](Offset i) { number_of_cell_[i] = internal[number_of_cell_[i]]; });
-  }
+  void renumber_cells(const Mesh& mesh) { cells_.renumber(mesh); }
 
   VertexOrder order_of(const Mesh& mesh) const {
     if (wider_->has_short_values()) {
@@ -90,92 +80,21 @@ class PassedSimplices {
   template <int corners>
   Mesh make_mesh_of() const {
     const auto vertex_ids = allocate<GlobalIds>("GALE::passed_vertices", vertex_count_);
-    const auto cell_ids = allocate<GlobalIds>("GALE::passed_cells", cell_of_.size());
-    const auto rows = allocate<typename CellCorners<corners, Id, HostMemory>::non_const_type>("GALE::passed_corners",
-                                                                                              cell_of_.size());
+    const Offset cells = cells_.count();
+    const auto cell_ids = allocate<GlobalIds>("GALE::passed_cells", cells);
+    const auto rows =
+        allocate<typename CellCorners<corners, Id, HostMemory>::non_const_type>("GALE::passed_corners", cells);
     for_each_vertex([&](Id vertex, Id number) { vertex_ids(number) = wider_->vertex_id(vertex); });
-    const Offset cells = static_cast<Offset>(cell_of_.size());
     for_parts("GALE::passed_cells", cells, threads_for(cells), [&](int, Offset begin, Offset end) {
       auto corners_of = wider_->corners_in_turn();
       for (Offset i = begin; i < end; ++i) {
         stop_if_asked_at(i);
-        cell_ids(i) = wider_->cell_id(cell_of_[i]);
-        const std::array<Id, 4> of = corners_of(cell_of_[i]);
+        cell_ids(i) = wider_->cell_id(cells_[i]);
+        const std::array<Id, 4> of = corners_of(cells_[i]);
         for (int k = 0; k < corners; ++k) rows(i, k) = number(of[k]);
       }
     });
     return excerpt_mesh<corners>(vertex_ids, cell_ids, rows, std::max(vertex_count_, 1));
-  }
-
-  /// Marks what is on paths, before anything else is: where one comes to what is marked, its rest is being marked by
-  /// whoever has marked that. mark(simplex) says whether it wasn't; bring_near(simplex) is told what comes soon.
-  template <class Mark, class BringNear>
-  static void mark_paths(const Separatrices<Id>& paths, const Mark& mark, const BringNear& bring_near) {
-    constexpr std::ptrdiff_t ahead = 8;
-    parallel_for("GALE::mark_paths", HostExecutionSpace(), paths.count(), [&](Offset i) {
-      const Id* const last = paths.last(static_cast<Id>(i));
-      for (const Id* at = paths.first(static_cast<Id>(i)); at != last && mark(*at); ++at) {
-        if (last - at > ahead) bring_near(at[ahead]);
-      }
-    });
-  }
-
-  void mark_cells(const CriticalSimplices& critical, const Separatrices<Id>& ascending) {
-    const auto mark = [&](Id cell) { return cells_.insert(wider_->cell_name(cell)); };
-    mark_paths(ascending, mark, [&](Id cell) { cells_.prefetch(wider_->cell_name(cell)); });
-    for (const Id cell : critical.cells) mark(cell);
-    for (const Id cell : critical.star) mark(cell);
-  }
-
-  /// The cells by their numbers among `cells_`.
-  std::vector<Id> cells_by_name() const {
-    auto by_name = zeros<Id>(cells_.count());
-    if (wider_->mesh().cells_in_input().table == nullptr) {  // names are the cells themselves
-      cells_.for_each("GALE::cells_by_name", [&](Id cell, Id number) { by_name[number] = cell; });
-    } else {
-      parallel_for("GALE::cells_by_name", HostExecutionSpace(), wider_->cells(), [&](Offset t) {
-        const Id cell = static_cast<Id>(t), name = wider_->cell_name(cell);
-        if (cells_.has(name)) by_name[cells_[name]] = cell;
-      });
-    }
-    return by_name;
-  }
-
-  /// Names of the rank's own cells ascend with global ids; others' come after all of these, and have to be put between
-  /// them.
-  void number_cells() {
-    struct Other {
-      GlobalId id;
-      Id place, own_before;  ///< by name; how many own cells have a lower id
-    };
-    cells_.number();
-    const std::vector<Id> by_name = cells_by_name();
-    const auto is_own = [&](Id cell) { return wider_->is_own_cell(cell); };
-    const Id own = static_cast<Id>(std::partition_point(by_name.begin(), by_name.end(), is_own) - by_name.begin());
-    std::vector<Other> others(by_name.size() - own);
-    parallel_for("GALE::other_cells", HostExecutionSpace(), others.size(), [&](Offset i) {
-      const Id place = own + static_cast<Id>(i);
-      const GlobalId id = wider_->cell_id(by_name[place]);
-      others[i] = {id, place, bisect(Id(0), own, [&](Id at) { return wider_->cell_id(by_name[at]) < id; })};
-    });
-    parallel_sort("GALE::sort_other_cells", others.begin(), others.end(),
-                  [](const Other& a, const Other& b) { return a.id < b.id; });
-    cell_of_ = zeros<Id>(by_name.size());
-    number_of_cell_ = zeros<Id>(by_name.size());
-    const auto set_number = [&](Offset place, Offset number) {
-      cell_of_[number] = by_name[place];
-      number_of_cell_[place] = static_cast<Id>(number);
-    };
-    for_parts("GALE::number_cells", own, threads_for(own), [&](int, Offset begin, Offset end) {
-      auto next = std::partition_point(others.begin(), others.end(),
-                                       [&](const Other& other) { return other.own_before <= begin; });
-      for (Offset i = begin; i < end; ++i) {
-        while (next != others.end() && next->own_before <= i) ++next;
-        set_number(i, i + (next - others.begin()));
-      }
-    });
-    parallel_for("GALE::number_cells", HostExecutionSpace(), others.size(),
-                 [&](Offset i) { set_number(others[i].place, others[i].own_before + i); });
   }
 
   bool mark(Id vertex) { return vertices_->insert(wider_->names()[vertex]); }
@@ -220,12 +139,12 @@ class PassedSimplices {
     for (const Id vertex : critical.vertices) mark(vertex);
     mark_all_of(critical.edges);
     mark_all_of(critical.triangles);
-    const Offset cells = static_cast<Offset>(cell_of_.size());
+    const Offset cells = cells_.count();
     for_parts("GALE::mark_passed", cells, threads_for(cells), [&](int, Offset begin, Offset end) {
       auto corners_of = wider_->corners_in_turn();
       for (Offset i = begin; i < end; ++i) {
         stop_if_asked_at(i);
-        for (const Id vertex : corners_of(cell_of_[i])) mark(vertex);
+        for (const Id vertex : corners_of(cells_[i])) mark(vertex);
       }
     });
   }
@@ -247,11 +166,9 @@ class PassedSimplices {
   }
 
   const std::shared_ptr<const WiderSimplices> wider_;
-  NumberedSet cells_;                    ///< by name
+  PassedCells cells_;
   std::optional<NumberedSet> vertices_;  ///< by name; none where all are taken
   Id vertex_count_;
-  std::vector<Id> cell_of_;         ///< by number
-  std::vector<Id> number_of_cell_;  ///< by name
 };
 
 }  // namespace
