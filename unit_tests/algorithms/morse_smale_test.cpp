@@ -142,7 +142,7 @@ TEST(MorseSmaleComplex, has_the_same_connectors_however_many_walls_grow_side_by_
   expected.connectors = detail::descending_surfaces(gradient, critical, places, false, true, 2).connectors;
   ASSERT_GT(expected.connectors.count(), 10'000);
   for (const Offset together : {1, 100, 10'000, 100'000'000}) {
-    auto connectors = detail::device_connectors(detail::wall_rows(gradient), critical.triangles, places, together);
+    auto connectors = detail::device_connectors(detail::wall_rows(gradient), critical, together);
     connectors.bring();
     found.connectors = std::move(connectors.paths);
     EXPECT_TRUE(equal(found, expected)) << together;
@@ -156,11 +156,8 @@ TEST(MorseSmaleComplex, has_connectors_named_where_they_were_found) {
   const VertexOrder order(mesh, field.data(), field.size());
   const auto gradient = find_discrete_gradient(WorkerSpace(), order);
   const auto& critical = gradient.critical();
-  const detail::CriticalPlaces places(critical);
   const auto rows = detail::wall_rows(gradient);
-  const auto find = [&](Offset together) {
-    return detail::device_connectors(rows, critical.triangles, places, together);
-  };
+  const auto find = [&](Offset together) { return detail::device_connectors(rows, critical, together); };
   auto expected = find(100'000'000);
   expected.bring();
   const OtherIds names = mesh.vertices_in_input();

@@ -119,7 +119,7 @@ struct ConnectorsHere::Found {
   std::vector<std::unique_ptr<SurfaceTracer>> tracers;
 };
 
-ConnectorsHere::ConnectorsHere(const DiscreteGradient& gradient, const CriticalPlaces& places, int threads)
+ConnectorsHere::ConnectorsHere(const DiscreteGradient& gradient, int threads)
     : triangles_(gradient.critical().triangles),
       threads_(threads),
       are_by_kernels_(gradient.store().is_from_kernels()),
@@ -127,12 +127,13 @@ ConnectorsHere::ConnectorsHere(const DiscreteGradient& gradient, const CriticalP
   if (are_by_kernels_) {
     for (const auto& [a, b, c] : triangles_) exits_.insert(exits_.end(), {{a, b}, {a, c}, {b, c}});
   } else {
-    follow_here(gradient, places);
+    follow_here(gradient);
   }
 }
 
 /// Follows walls as far as they are in the part.
-void ConnectorsHere::follow_here(const DiscreteGradient& gradient, const CriticalPlaces& places) {
+void ConnectorsHere::follow_here(const DiscreteGradient& gradient) {
+  const CriticalPlaces places(gradient.critical());
   const WallGround ground = ground_of(gradient);
   const auto most_kept = static_cast<std::size_t>(gradient.mesh().vertices());
   found_->tracers = traced(
@@ -161,7 +162,7 @@ FoundConnectors ConnectorsHere::finish(const WiderGradient& wider, const Critica
   if (are_by_kernels_) {
     try {
       const auto rows = std::make_shared<const WiderRows>(wider);
-      FoundConnectors found = device_connectors(rows->rows(), triangles_, places);
+      FoundConnectors found = device_connectors(rows->rows(), wider.critical());
       found.rows = rows;
       return found;
     } catch (const OutOfMemory&) {

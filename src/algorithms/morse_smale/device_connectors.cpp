@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -6,6 +7,7 @@
 #include <gale/algorithms/morse_smale/parts.hpp>
 #include <gale/base/error.hpp>
 #include <gale/base/parallel.hpp>
+#include <gale/base/sort.hpp>
 #include <gale/base/stop.hpp>
 #include <gale/base/transfer.hpp>
 
@@ -59,19 +61,66 @@ void append(std::vector<T>& entries, const InWorkers<T>& more) {
   }
 }
 
-/// Appends the path from each of these rims up to the wall's critical triangle, which it includes. Sources and
+/// The places of critical edges among these, for kernels.
+struct EdgePlaces {
+  KeyTable edges;  ///< by their ends, the higher one first
+  InWorkers<Id> places;
+
+  KOKKOS_FUNCTION Id operator()(const WallRim& rim) const { return places(edges.find(pair_key(rim.high, rim.low))); }
+};
+
+/// Throws OutOfMemory.
+EdgePlaces places_of(const WorkerSpace& space, const std::vector<std::array<Id, 2>>& edges) {
+  const Offset count = static_cast<Offset>(edges.size()), places = KeyTable::places_for(std::max<Offset>(count, 1));
+  const EdgePlaces all{KeyTable(space, places), allocate<InWorkers<Id>>("GALE::edge_places", places)};
+  if (edges.empty()) return all;
+  const auto ends = in_memory<WorkerMemory>(Given<Id>(edges[0].data(), 2 * edges.size()));
+  parallel_for(
+      "GALE::edge_places", space, count, KOKKOS_LAMBDA(Offset i) {
+        bool is_new;
+        all.places(all.edges.insert(pair_key(ends(2 * i), ends(2 * i + 1)), is_new)) = static_cast<Id>(i);
+      });
+  space.fence();
+  return all;
+}
+
+/// Rims by walls and the places of their edges.
+struct SortedRims {
+  InWorkers<Id> rims;          ///< their places in what was sorted
+  InWorkers<Id> walls, edges;  ///< of these
+};
+
+/// Sorts rims, which come in no order. Throws OutOfMemory.
+SortedRims sorted_rims(const WorkerSpace& space, const InWorkers<WallRim>& rims, const EdgePlaces& places) {
+  const Offset count = static_cast<Offset>(rims.extent(0));
+  const auto keys = allocate<InWorkers<std::uint64_t>>("GALE::rim_keys", count);
+  const SortedRims all{iota("GALE::sorted_rims", space, static_cast<Id>(count)),
+                       allocate<InWorkers<Id>>("GALE::walls_of_rims", count),
+                       allocate<InWorkers<Id>>("GALE::edges_of_rims", count)};
+  parallel_for(
+      "GALE::rim_keys", space, count, KOKKOS_LAMBDA(Offset i) { keys(i) = pair_key(rims(i).wall, places(rims(i))); });
+  stable_sort_by_key(space, keys, all.rims);
+  parallel_for(
+      "GALE::ends_of_rims", space, count, KOKKOS_LAMBDA(Offset i) {
+        all.walls(i) = pair_first(keys(i));
+        all.edges(i) = pair_second(keys(i));
+      });
+  space.fence();
+  return all;
+}
+
+/// Appends the path from each of the rims up to the wall's critical triangle, which it includes. Sources and
 /// destinations are the caller's.
-void append_paths(const WorkerSpace& space, const GrownWalls& walls, const std::vector<WallRim>& from,
+void append_paths(const WorkerSpace& space, const GrownWalls& walls, const InWorkers<Id>& order,
                   FoundConnectors& found) {
-  const Offset count = static_cast<Offset>(from.size());
-  const auto rims = in_memory<WorkerMemory>(Given<WallRim>(from.data(), from.size()));
+  const Offset count = static_cast<Offset>(order.extent(0));
   const auto begin = allocate<InWorkers<Offset>>("GALE::connector_begin", count + 1);
   const auto is_only = allocate<InWorkers<std::uint8_t>>("GALE::connector_is_only", count);
   parallel_for(
       "GALE::connector_lengths", space, count, KOKKOS_LAMBDA(Offset i) {
         Offset length = 0;
         bool only = true;
-        walls.climb(rims(i), [&](std::uint32_t, bool are_several) {
+        walls.climb(walls.rims(order(i)), [&](std::uint32_t, bool are_several) {
           ++length;
           only &= !are_several;
         });
@@ -83,7 +132,7 @@ void append_paths(const WorkerSpace& space, const GrownWalls& walls, const std::
   parallel_for(
       "GALE::follow_connectors", space, count, KOKKOS_LAMBDA(Offset i) {
         Offset at = begin(i);
-        walls.climb(rims(i), [&](std::uint32_t number, bool) {
+        walls.climb(walls.rims(order(i)), [&](std::uint32_t number, bool) {
           const WallTriangle& triangle = walls.sink.triangle(number);
           cells(at++) = {triangle.high, triangle.low, triangle.third};
         });
@@ -106,9 +155,11 @@ class TooManyEdges : public OutOfMemory {
 /// grow with all walls together.
 class Connectors {
  public:
-  Connectors(const WallRows& rows, const std::vector<TriangleVertices>& critical, const CriticalPlaces& places,
-             Offset most_together)
-      : critical_(critical), places_(places), most_together_(most_together), rows_(rows) {
+  Connectors(const WallRows& rows, const CriticalSimplices& critical, Offset most_together)
+      : critical_(critical.triangles),
+        places_(places_of(space_, critical.edges)),
+        most_together_(most_together),
+        rows_(rows) {
     found.names = rows.names;
     found_.keys.bits = bits_for(rows.edges());
     found_.counts = allocate<InWorkers<WallCounts>>("GALE::wall_counts", 1);
@@ -163,7 +214,7 @@ class Connectors {
     counts_ = {0, 0, count, {}};
     found_.critical = allocate<InWorkers<WallTriangle>>("GALE::critical_triangles", count);
     found_.open = allocate<InWorkers<std::uint32_t>>("GALE::open_triangles", count);
-    Kokkos::deep_copy(found_.counts, Given<WallCounts>(&counts_, 1));
+    Kokkos::deep_copy(space_, found_.counts, Given<WallCounts>(&counts_, 1));
     begin_walls(space_, in_memory<WorkerMemory>(Given<Id>(critical->data(), 3 * static_cast<std::size_t>(count))),
                 found_);
     space_.fence();
@@ -205,35 +256,19 @@ class Connectors {
     found_ = larger;
   }
 
-  /// Sorts the rims, which come in no order, by wall and edge. Appends nothing if it throws OutOfMemory.
+  /// In the order of walls and edges. Appends nothing if it throws OutOfMemory.
   void add_paths(Id first, const GrownWalls& walls) {
-    const auto there = on_host(walls.rims);
-    using Keyed = std::pair<std::pair<Id, Id>, WallRim>;
-    auto rims = unwritten<Keyed>(counts_.rims);
-    parallel_for("GALE::rims", HostExecutionSpace(), counts_.rims, [&](Offset i) {
-      const WallRim& rim = there(i);
-      rims[i] = {{rim.wall, places_.of_edge(rim.high, rim.low)}, rim};
-    });
-    parallel_sort("GALE::sort_rims", rims.begin(), rims.end(),
-                  [](const Keyed& a, const Keyed& b) { return a.first < b.first; });
-    auto sorted = unwritten<WallRim>(rims.size());
-    parallel_for("GALE::sorted_rims", HostExecutionSpace(), counts_.rims,
-                 [&](Offset i) { sorted[i] = rims[i].second; });
-    append_paths(space_, walls, sorted, found);
-    Separatrices<TriangleVertices>& paths = found.paths;
-    const std::size_t before = paths.sources.size();
-    paths.sources.resize(before + rims.size());
-    paths.destinations.resize(before + rims.size());
-    parallel_for("GALE::connector_ends", HostExecutionSpace(), counts_.rims, [&](Offset i) {
-      const auto [wall, edge] = rims[i].first;
-      paths.sources[before + i] = edge;
-      paths.destinations[before + i] = first + wall;
-    });
+    const SortedRims rims = sorted_rims(space_, walls.rims, places_);
+    append_paths(space_, walls, rims.rims, found);
+    append(found.paths.sources, rims.edges);
+    const std::size_t before = found.paths.destinations.size();
+    append(found.paths.destinations, rims.walls);
+    for (std::size_t i = before; i < found.paths.destinations.size(); ++i) found.paths.destinations[i] += first;
   }
 
   const WorkerSpace space_{};
   const std::vector<TriangleVertices>& critical_;
-  const CriticalPlaces& places_;
+  const EdgePlaces places_;
   const Offset most_together_;
   const WallRows rows_;
   WallSink found_;
@@ -247,10 +282,9 @@ void FoundConnectors::bring() {
   triangles.clear();
 }
 
-FoundConnectors device_connectors(const WallRows& rows, const std::vector<TriangleVertices>& critical,
-                                  const CriticalPlaces& places, Offset most_together) {
-  Connectors connectors(rows, critical, places, most_together);
-  if (!critical.empty()) connectors.add(0, static_cast<Id>(critical.size()));
+FoundConnectors device_connectors(const WallRows& rows, const CriticalSimplices& critical, Offset most_together) {
+  Connectors connectors(rows, critical, most_together);
+  if (!critical.triangles.empty()) connectors.add(0, static_cast<Id>(critical.triangles.size()));
   return std::move(connectors.found);
 }
 

@@ -22,7 +22,7 @@ void find_surfaces(const detail::CriticalPlaces& places, int threads, MorseSmale
   const MorseSmaleParts& parts = complex.parts;
   if (!parts.separatrices2 && complex.excerpt.store().is_from_kernels()) {
     try {
-      auto found = detail::device_connectors(detail::wall_rows(complex.excerpt), complex.critical.triangles, places);
+      auto found = detail::device_connectors(detail::wall_rows(complex.excerpt), complex.critical);
       found.bring();
       complex.connectors = std::move(found.paths);
       return;

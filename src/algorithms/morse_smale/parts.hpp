@@ -73,8 +73,8 @@ struct FoundConnectors {
 /// vertex; what is more is followed anew. Where kernels found the gradient they find all of them then.
 class ConnectorsHere {
  public:
-  /// `places` has those of the rank's critical simplices. Refers to the gradient.
-  ConnectorsHere(const DiscreteGradient& gradient, const CriticalPlaces& places, int threads);
+  /// Refers to the gradient.
+  ConnectorsHere(const DiscreteGradient& gradient, int threads);
   ~ConnectorsHere();
 
   /// The edges, the higher end first, at which walls leave the part; where kernels find connectors, those at which they
@@ -88,7 +88,7 @@ class ConnectorsHere {
  private:
   struct Found;
 
-  void follow_here(const DiscreteGradient& gradient, const CriticalPlaces& places);
+  void follow_here(const DiscreteGradient& gradient);
 
   const std::vector<TriangleVertices>& triangles_;
   const int threads_;
@@ -111,8 +111,8 @@ void separatrices_on_ranks(int threads, PathExits down, PathExits up, MorseSmale
 /// gradient: those that `descending_surfaces` finds, in its order. Walls are made together that have about
 /// `most_together` edges at most, a single one with any number: 2^26 take 4 to 8 GiB, beside the connectors. Throws
 /// OutOfMemory if one doesn't fit there.
-FoundConnectors device_connectors(const WallRows& rows, const std::vector<TriangleVertices>& critical,
-                                  const CriticalPlaces& places, Offset most_together = Offset(1) << 26);
+FoundConnectors device_connectors(const WallRows& rows, const CriticalSimplices& critical,
+                                  Offset most_together = Offset(1) << 26);
 
 /// Finds the ascending walls of some critical edges, by their places, ascending. A wall goes on from an edge, through
 /// each of the edge's triangles, to the edge that the triangle is paired with. Reads VT of `structure`.

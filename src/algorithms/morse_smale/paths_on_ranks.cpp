@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <numeric>
+#include <tuple>
 #include <type_traits>
 
 #include <gale/algorithms/gradient/gradient_store.hpp>
@@ -13,6 +15,13 @@
 namespace gale::detail {
 
 namespace {
+
+/// Where the path from an exit comes to, as other ranks are told.
+struct ToldStop {
+  Id exit;
+  std::int32_t rank;
+  std::int64_t at;
+};
 
 /// The cells that have a ghost.
 template <class Space>
@@ -109,9 +118,10 @@ std::vector<int> PathSimplices::owners(const std::vector<Id>& simplices) const {
 }
 
 PathsOnRanks::PathsOnRanks(const PathSimplices& simplices, const Array<const std::int64_t, HostMemory>& names,
-                           const std::vector<Id>& others)
+                           const std::vector<Id>& others, Offset most_told)
     : simplices_(simplices), criticals_(static_cast<Id>(simplices.critical().size())), names_(names) {
   begin(others);
+  if (!follow_told(most_told)) return;
   while (jump()) {
   }
 }
@@ -191,6 +201,39 @@ void PathsOnRanks::ask_owners(const Array<Id, HostMemory>& reached) {
     });
   });
   ++rounds_;
+}
+
+/// The second round, where few paths haven't ended: all ranks are told where these come to, so that each goes on to an
+/// exit from which the next rank knows the end. False, and nothing done, if all have ended on all ranks.
+bool PathsOnRanks::follow_told(Offset most_told) {
+  const std::vector<std::int64_t> counts = ranks().all(static_cast<std::int64_t>(open_.size()));
+  std::vector<Offset> begin(ranks().size() + 1, 0);
+  std::partial_sum(counts.begin(), counts.end(), begin.begin() + 1);
+  if (begin.back() == 0) return false;
+  if (begin.back() * ranks().size() > most_told) return true;
+  std::vector<ToldStop> own;
+  together(ranks(), [&] {
+    own.resize(open_.size());
+    parallel_for("GALE::told_stops", HostExecutionSpace(), own.size(), [&](Offset i) {
+      const PathStop& stop = stops_(open_[i]);
+      own[i] = {open_[i], static_cast<std::int32_t>(stop.rank), stop.at};
+    });
+  });
+  const std::vector<ToldStop> told = std::get<0>(lists_of_all(ranks(), "GALE::told_stops", own));
+  together(ranks(), [&] {
+    parallel_for("GALE::follow_told", HostExecutionSpace(), open_.size(), [&](Offset i) {
+      PathStop& stop = stops_(open_[i]);
+      for (;;) {
+        const auto last = told.begin() + begin[stop.rank + 1];
+        const auto next = std::lower_bound(told.begin() + begin[stop.rank], last, stop.at,
+                                           [](const ToldStop& one, std::int64_t exit) { return one.exit < exit; });
+        if (next == last || next->exit != stop.at) return;
+        stop = {next->rank, next->at};
+      }
+    });
+  });
+  ++rounds_;
+  return true;
 }
 
 /// A further round: each exit whose path hasn't ended learns from the rank that this has come to where it goes from

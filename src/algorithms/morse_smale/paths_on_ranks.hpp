@@ -84,16 +84,17 @@ struct ExitLinks {
   std::vector<Id> wanted;                   ///< the places of those that paths were asked for, once each
 };
 
-/// The ends of paths along the successors of a mesh on several ranks, by pointer jumping: first on each rank, then from
-/// rank to rank, in a number of rounds that grows with the logarithm of how often a path changes ranks.
+/// The ends of paths along the successors of a mesh on several ranks: first on each rank, then by pointer jumping from
+/// rank to rank, in a number of rounds that grows with the logarithm of how often a path changes ranks. Where few do so
+/// more than once, all ranks are told where these come to, instead of most rounds.
 class PathsOnRanks {
  public:
   /// Finds those of paths of vertices, upwards from their first_cells(), of simplices that others share, and from
   /// `others` (GALE's ids), whose successors may be elsewhere. `names`, 0 or more, are those of the rank's critical
-  /// simplices, by which all ranks are to know them. Collective; throws gale::Error on all ranks. Refers to
-  /// `simplices`.
+  /// simplices, by which all ranks are to know them. Few are paths of which all ranks together are told `most_told`
+  /// times, 16 bytes each. Collective; throws gale::Error on all ranks. Refers to `simplices`.
   PathsOnRanks(const PathSimplices& simplices, const Array<const std::int64_t, HostMemory>& names,
-               const std::vector<Id>& others = {});
+               const std::vector<Id>& others = {}, Offset most_told = Offset(1) << 20);
 
   /// Finds the exits of these paths alone, and where each goes on: no names of ends. Likewise.
   PathsOnRanks(const PathSimplices& simplices, const std::vector<Id>& others);
@@ -131,6 +132,7 @@ class PathsOnRanks {
  private:
   void begin(const std::vector<Id>& others);
   void ask_owners(const Array<Id, HostMemory>& reached);
+  bool follow_told(Offset most_told);
   bool jump();
   PathStop stop_here(Id end) const;
 
@@ -140,7 +142,7 @@ class PathsOnRanks {
   Array<Id, HostMemory> exits_;                  ///< ascending
   EndsHere ends_;
   Mirrored<Id> starts_;
-  Array<PathStop, HostMemory> stops_;  ///< of each exit: where paths from there are after 2^(rounds-1) changes of ranks
+  Array<PathStop, HostMemory> stops_;  ///< of each exit: where paths from there have come to so far
   Array<ExitLink, HostMemory> links_;  ///< of each exit
   std::vector<Id> open_;               ///< the places of those whose paths haven't ended yet
   int rounds_ = 0;

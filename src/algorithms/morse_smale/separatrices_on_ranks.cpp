@@ -14,7 +14,6 @@ void separatrices_on_ranks(int threads, PathExits down, PathExits up, MorseSmale
   const Mesh& mesh = gradient.mesh();
   const Ranks& ranks = mesh.exchange().ranks();
   const MorseSmaleParts& parts = complex.parts;
-  const CriticalSimplices& own = gradient.critical();
   const bool has_connectors = parts.saddle_connectors && mesh.dimension() == 3;
   WayExits exits;
   std::unique_ptr<ConnectorsHere> connectors;
@@ -23,7 +22,7 @@ void separatrices_on_ranks(int threads, PathExits down, PathExits up, MorseSmale
     exits.vertices = std::move(down.links);
     exits.cells = std::move(up.links);
     if (!has_connectors) return;
-    connectors = std::make_unique<ConnectorsHere>(gradient, CriticalPlaces(own), threads);
+    connectors = std::make_unique<ConnectorsHere>(gradient, threads);
     exits.edges = connectors->exits();
   });
   Reached reached = reach_beyond(gradient, *cells, exits);
