@@ -69,7 +69,7 @@ struct EdgePlaces {
   KOKKOS_FUNCTION Id operator()(const WallRim& rim) const { return places(edges.find(pair_key(rim.high, rim.low))); }
 };
 
-/// Throws OutOfMemory.
+/// Finds the places of these edges. Throws OutOfMemory.
 EdgePlaces places_of(const WorkerSpace& space, const std::vector<std::array<Id, 2>>& edges) {
   const Offset count = static_cast<Offset>(edges.size()), places = KeyTable::places_for(std::max<Offset>(count, 1));
   const EdgePlaces all{KeyTable(space, places), allocate<InWorkers<Id>>("GALE::edge_places", places)};
@@ -84,7 +84,7 @@ EdgePlaces places_of(const WorkerSpace& space, const std::vector<std::array<Id, 
   return all;
 }
 
-/// Rims by walls and the places of their edges.
+/// Rims in the order of walls, and of the places of their edges.
 struct SortedRims {
   InWorkers<Id> rims;          ///< their places in what was sorted
   InWorkers<Id> walls, edges;  ///< of these
@@ -256,7 +256,7 @@ class Connectors {
     found_ = larger;
   }
 
-  /// In the order of walls and edges. Appends nothing if it throws OutOfMemory.
+  /// Appends the connectors of walls that have grown, by walls and edges; nothing if it throws OutOfMemory.
   void add_paths(Id first, const GrownWalls& walls) {
     const SortedRims rims = sorted_rims(space_, walls.rims, places_);
     append_paths(space_, walls, rims.rims, found);

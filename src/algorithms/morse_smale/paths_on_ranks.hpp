@@ -91,8 +91,9 @@ class PathsOnRanks {
  public:
   /// Finds those of paths of vertices, upwards from their first_cells(), of simplices that others share, and from
   /// `others` (GALE's ids), whose successors may be elsewhere. `names`, 0 or more, are those of the rank's critical
-  /// simplices, by which all ranks are to know them. Few are paths of which all ranks together are told `most_told`
-  /// times, 16 bytes each. Collective; throws gale::Error on all ranks. Refers to `simplices`.
+  /// simplices, by which all ranks are to know them. Paths are few if all ranks together are told of `most_told` at
+  /// most, each as often as there are ranks: 16 bytes. Collective; throws gale::Error on all ranks. Refers to
+  /// `simplices`.
   PathsOnRanks(const PathSimplices& simplices, const Array<const std::int64_t, HostMemory>& names,
                const std::vector<Id>& others = {}, Offset most_told = Offset(1) << 20);
 
