@@ -84,4 +84,32 @@ class KeyTable {
   Array<std::uint64_t, WorkerMemory> keys_;
 };
 
+/// An id for each of some keys, which kernels set and later ones find. Copies share them.
+class IdTable {
+ public:
+  /// Makes a table without keys.
+  IdTable() = default;
+
+  /// Makes room for so many keys. Throws OutOfMemory.
+  IdTable(const char* label, const WorkerSpace& space, Offset keys)
+      : keys_(space, KeyTable::places_for(keys > 1 ? keys : 1)),
+        ids_(allocate<Array<Id, WorkerMemory>>(label, keys_.places())) {}
+
+  KOKKOS_FUNCTION void set(std::uint64_t key, Id id) const {
+    bool is_new;
+    ids_(keys_.insert(key, is_new)) = id;
+  }
+
+  /// The place of a key, one of places(); KeyTable::none if there is none.
+  KOKKOS_FUNCTION std::uint64_t find(std::uint64_t key) const { return keys_.find(key); }
+  KOKKOS_FUNCTION Offset places() const { return keys_.places(); }
+
+  /// The id of the key at a place.
+  KOKKOS_FUNCTION Id at(std::uint64_t place) const { return ids_(place); }
+
+ private:
+  KeyTable keys_;
+  Array<Id, WorkerMemory> ids_;
+};
+
 }  // namespace gale::detail

@@ -116,6 +116,36 @@ TEST(KeyTable, without_places_has_no_key) {
   for (const std::uint64_t place : here(find.places)) EXPECT_EQ(place, detail::KeyTable::none);
 }
 
+/// Sets the ids of keys 3i, and asks for those of all keys.
+struct SetIds {
+  detail::IdTable table;
+  KOKKOS_FUNCTION void operator()(Offset i) const { table.set(3 * std::uint64_t(i), static_cast<Id>(-i)); }
+};
+struct GetIds {
+  detail::IdTable table;
+  Array<std::uint64_t, WorkerMemory> found;  ///< the id of each key, or none
+  KOKKOS_FUNCTION void operator()(Offset key) const {
+    const std::uint64_t place = table.find(static_cast<std::uint64_t>(key));
+    found(key) = place == detail::KeyTable::none ? place : static_cast<std::uint64_t>(-table.at(place));
+  }
+};
+
+TEST(IdTable, has_the_id_of_each_key) {
+  const WorkerSpace space;
+  for (const Offset keys : {0, 1, 1000}) {
+    const detail::IdTable table("test", space, keys);
+    parallel_for("set", space, keys, SetIds{table});
+    const GetIds get{table, allocate<Array<std::uint64_t, WorkerMemory>>("found", 3 * keys + 3)};
+    parallel_for("get", space, 3 * keys + 3, get);
+    space.fence();
+    const auto found = here(get.found);
+    for (std::size_t key = 0; key < found.size(); ++key) {
+      const bool is_there = key % 3 == 0 && key / 3 < static_cast<std::size_t>(keys);
+      ASSERT_EQ(found[key], is_there ? key / 3 : detail::KeyTable::none) << key;
+    }
+  }
+}
+
 TEST(BitsFor, numbers_below_a_count) {
   EXPECT_EQ(detail::bits_for(1), 1);
   EXPECT_EQ(detail::bits_for(2), 1);

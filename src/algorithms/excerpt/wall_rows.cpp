@@ -10,14 +10,12 @@ ToldEdges told_there(const std::vector<ToldEdge>& edges, Offset first_number) {
   if (edges.empty()) return {};
   const WorkerSpace space;
   const auto from = in_memory<WorkerMemory>(edges);
-  const Offset count = from.extent(0), places = Offset(1) << bits_for(2 * count);
-  const ToldEdges told{KeyTable(space, places), allocate<Array<Id, WorkerMemory>>("GALE::told_thirds", places),
-                       first_number};
+  const Offset count = from.extent(0);
+  const ToldEdges told{IdTable("GALE::told_thirds", space, count), first_number};
   parallel_for(
       "GALE::told_edges", space, count, KOKKOS_LAMBDA(Offset i) {
         const ToldEdge edge = from(i);
-        bool is_new;
-        told.thirds(told.edges.insert(pair_key(edge.high, edge.low), is_new)) = edge.third;
+        told.thirds.set(pair_key(edge.high, edge.low), edge.third);
       });
   space.fence();
   return told;

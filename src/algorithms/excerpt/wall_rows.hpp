@@ -10,14 +10,13 @@ namespace gale::detail {
 /// Edges that other ranks have told of, for kernels: those that are critical or paired with triangles. Copies share
 /// them.
 struct ToldEdges {
-  KeyTable edges;  ///< by their ends, the higher one first
-  Array<Id, WorkerMemory> thirds;
+  IdTable thirds;           ///< by their ends, the higher one first
   Offset first_number = 0;  ///< behind those of own edges
 
   KOKKOS_FUNCTION PairedEdge operator()(Id high, Id low) const {
-    const std::uint64_t place = edges.find(pair_key(high, low));
+    const std::uint64_t place = thirds.find(pair_key(high, low));
     if (place == KeyTable::none) return {0, edge_has_vertex};
-    return {first_number + static_cast<Offset>(place), thirds(place)};
+    return {first_number + static_cast<Offset>(place), thirds.at(place)};
   }
 };
 
@@ -33,7 +32,7 @@ struct WallRows {
   }
 
   /// Numbers of edges are below.
-  Offset edges() const { return own.count + told.edges.places(); }
+  Offset edges() const { return own.count + told.thirds.places(); }
 };
 
 /// What kernels read of a gradient by itself.

@@ -61,27 +61,17 @@ void append(std::vector<T>& entries, const InWorkers<T>& more) {
   }
 }
 
-/// The places of critical edges among these, for kernels.
-struct EdgePlaces {
-  KeyTable edges;  ///< by their ends, the higher one first
-  InWorkers<Id> places;
-
-  KOKKOS_FUNCTION Id operator()(const WallRim& rim) const { return places(edges.find(pair_key(rim.high, rim.low))); }
-};
-
-/// Finds the places of these edges. Throws OutOfMemory.
-EdgePlaces places_of(const WorkerSpace& space, const std::vector<std::array<Id, 2>>& edges) {
-  const Offset count = static_cast<Offset>(edges.size()), places = KeyTable::places_for(std::max<Offset>(count, 1));
-  const EdgePlaces all{KeyTable(space, places), allocate<InWorkers<Id>>("GALE::edge_places", places)};
-  if (edges.empty()) return all;
+/// Finds the places of critical edges among these, by their ends, the higher one first. Throws OutOfMemory.
+IdTable places_of(const WorkerSpace& space, const std::vector<std::array<Id, 2>>& edges) {
+  const Offset count = static_cast<Offset>(edges.size());
+  const IdTable places("GALE::edge_places", space, count);
+  if (edges.empty()) return places;
   const auto ends = in_memory<WorkerMemory>(Given<Id>(edges[0].data(), 2 * edges.size()));
   parallel_for(
-      "GALE::edge_places", space, count, KOKKOS_LAMBDA(Offset i) {
-        bool is_new;
-        all.places(all.edges.insert(pair_key(ends(2 * i), ends(2 * i + 1)), is_new)) = static_cast<Id>(i);
-      });
+      "GALE::edge_places", space, count,
+      KOKKOS_LAMBDA(Offset i) { places.set(pair_key(ends(2 * i), ends(2 * i + 1)), static_cast<Id>(i)); });
   space.fence();
-  return all;
+  return places;
 }
 
 /// Rims in the order of walls, and of the places of their edges.
@@ -91,14 +81,17 @@ struct SortedRims {
 };
 
 /// Sorts rims, which come in no order. Throws OutOfMemory.
-SortedRims sorted_rims(const WorkerSpace& space, const InWorkers<WallRim>& rims, const EdgePlaces& places) {
+SortedRims sorted_rims(const WorkerSpace& space, const InWorkers<WallRim>& rims, const IdTable& places) {
   const Offset count = static_cast<Offset>(rims.extent(0));
   const auto keys = allocate<InWorkers<std::uint64_t>>("GALE::rim_keys", count);
   const SortedRims all{iota("GALE::sorted_rims", space, static_cast<Id>(count)),
                        allocate<InWorkers<Id>>("GALE::walls_of_rims", count),
                        allocate<InWorkers<Id>>("GALE::edges_of_rims", count)};
   parallel_for(
-      "GALE::rim_keys", space, count, KOKKOS_LAMBDA(Offset i) { keys(i) = pair_key(rims(i).wall, places(rims(i))); });
+      "GALE::rim_keys", space, count, KOKKOS_LAMBDA(Offset i) {
+        const WallRim& rim = rims(i);
+        keys(i) = pair_key(rim.wall, places.at(places.find(pair_key(rim.high, rim.low))));
+      });
   stable_sort_by_key(space, keys, all.rims);
   parallel_for(
       "GALE::ends_of_rims", space, count, KOKKOS_LAMBDA(Offset i) {
@@ -268,7 +261,7 @@ class Connectors {
 
   const WorkerSpace space_{};
   const std::vector<TriangleVertices>& critical_;
-  const EdgePlaces places_;
+  const IdTable places_;
   const Offset most_together_;
   const WallRows rows_;
   WallSink found_;
