@@ -95,7 +95,7 @@ Id segments_of(Id vertices, int capacity) { return vertices / capacity + (vertic
 /// How a grid is cut into segments of `capacity` consecutive vertices: those before the owned ones, these, and others.
 struct GridDivision {
   detail::MeshArrays arrays;
-  Interval owned_segments;
+  Interval owned_segments, owned_vertices;
 };
 
 /// Where segments begin, and their internal cells.
@@ -121,7 +121,7 @@ GridDivision divide(const Space& space, const Grid& grid, int capacity, const In
   arrays.dimension = grid.dimension();
   arrays.vertex_begin = vertex_begin;
   arrays.internal_begin = internal_begin;
-  return {arrays, {lower, upper}};
+  return {arrays, {lower, upper}, owned};
 }
 
 /// Writes what a grid computes, for those who want arrays. `divided` says where segments begin.
@@ -167,11 +167,13 @@ class Mesh::Data {
         vertices(static_cast<Id>(mesh.permutations.vertex_input.size())),
         cells(static_cast<Id>(mesh.permutations.cell_input.size())),
         owned_segments(mesh.owned_segments),
+        owned_vertices(vertices_in(mesh.arrays, owned_segments)),
         simplices(mesh.arrays.dimension, [this]() -> const detail::MeshArrays& { return arrays(); }),
         divided_(mesh.arrays),
         permutations_(mesh.permutations) {
+    // What consumers read again and again is copied to the host now.
     divided_.external_begin.in<HostMemory>();
-    publish();
+    divided_.internal_begin.in<HostMemory>();
   }
 
   Data(const Grid& given, const GridDivision& division, std::shared_ptr<const Exchange> others)
@@ -180,10 +182,9 @@ class Mesh::Data {
         vertices(given.vertices()),
         cells(given.cells()),
         owned_segments(division.owned_segments),
+        owned_vertices(division.owned_vertices),
         simplices(given.dimension(), [this]() -> const detail::MeshArrays& { return arrays(); }),
-        divided_(division.arrays) {
-    publish();
-  }
+        divided_(division.arrays) {}
 
   /// The arrays that a grid has, too: the division into segments.
   const detail::MeshArrays& divided() const { return divided_; }
@@ -224,16 +225,15 @@ class Mesh::Data {
   const std::shared_ptr<const Exchange> exchange;  ///< of a part
   const std::optional<Grid> grid;
   const Id vertices, cells;
-  const Interval owned_segments;
+  const Interval owned_segments, owned_vertices;
   mutable detail::SimplexStore simplices;
   mutable std::mutex kept_mutex;
   mutable std::map<std::string, std::shared_ptr<const void>> kept;
 
  private:
-  /// What consumers read again and again is copied to the host now.
-  void publish() const {
-    divided_.vertex_begin.in<HostMemory>();
-    divided_.internal_begin.in<HostMemory>();
+  static Interval vertices_in(const detail::MeshArrays& arrays, const Interval& segments) {
+    const auto& begin = arrays.vertex_begin.in<HostMemory>();
+    return {begin(segments.first), begin(segments.last)};
   }
 
   const detail::MeshArrays divided_;  ///< of cells that are no grid: all arrays
@@ -252,7 +252,7 @@ std::shared_ptr<const Mesh::Data> Mesh::Data::made_of(const CellCorners<corners,
     throw Error(corners == 4 ? "the mesh has no tetrahedra" : "the mesh has no triangles");
   std::string notice;
   const auto encoded = in_worker_or_host_space(
-      true, [&](const auto& space) { return encode<corners, Index>(space, given, segmentation); },
+      given.extent(0) > 0, [&](const auto& space) { return encode<corners, Index>(space, given, segmentation); },
       [&](const OutOfMemory& error) {
         notice = "the mesh doesn't fit the device's memory (" + error.missing() + "): the host computes";
       });
@@ -288,9 +288,7 @@ Id Mesh::vertices() const { return data_->vertices; }
 Id Mesh::cells() const { return data_->cells; }
 Id Mesh::segments() const { return static_cast<Id>(data_->divided().vertex_begin.size()) - 1; }
 Interval Mesh::owned_segments() const { return data_->owned_segments; }
-Interval Mesh::owned_vertices() const {
-  return {vertex_begin()(owned_segments().first), vertex_begin()(owned_segments().last)};
-}
+Interval Mesh::owned_vertices() const { return data_->owned_vertices; }
 
 bool Mesh::is_part() const { return data_->exchange != nullptr; }
 const Exchange& Mesh::exchange() const { return is_part() ? *data_->exchange : Exchange::of_whole_mesh(); }

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include <gale/algorithms/merge_tree/assemble.hpp>
 #include <gale/base/sort.hpp>
@@ -75,15 +76,14 @@ MergeTree tree_of(const Mesh& mesh, const std::vector<Id>& nodes, const std::vec
   return tree;
 }
 
-void set_arcs(MergeTree& tree, std::vector<Id> arc_of) {
-  for (const Id vertex : tree.vertices) arc_of[vertex] = no_id;
-  const std::vector<Id> sizes =
-      sizes_of(tree.arcs.size(), static_cast<Offset>(arc_of.size()), [&](Offset i) { return arc_of[i]; });
-  for (std::size_t i = 0; i < tree.arcs.size(); ++i) {
-    tree.arcs[i].size = sizes[i];
-    arc_of[tree.vertices[tree.arcs[i].lower]] = arc_of[tree.vertices[tree.arcs[i].upper]] = static_cast<Id>(i);
+void set_arcs_of_nodes(MergeTree& tree) {
+  for (const Id vertex : tree.vertices) {
+    const Id arc = std::exchange(tree.arc_of[vertex], no_id);
+    if (arc != no_id) --tree.arcs[arc].size;
   }
-  tree.arc_of = std::move(arc_of);
+  for (std::size_t i = 0; i < tree.arcs.size(); ++i) {
+    for (const Id end : {tree.arcs[i].lower, tree.arcs[i].upper}) tree.arc_of[tree.vertices[end]] = static_cast<Id>(i);
+  }
 }
 
 }  // namespace gale::detail

@@ -7,7 +7,6 @@
 
 #include <gale/algorithms/merge_tree.hpp>
 #include <gale/algorithms/merge_tree/side_keys.hpp>
-#include <gale/base/parallel.hpp>
 
 namespace gale::detail {
 
@@ -31,32 +30,7 @@ ContourArcs contour_arcs(const std::array<std::vector<Id>, 2>& parents);
 MergeTree tree_of(const Mesh& mesh, const std::vector<Id>& nodes, const std::vector<std::pair<Id, Id>>& ends,
                   std::vector<Id>& place);
 
-/// How many of so many vertices each arc has; arc_of(i) is that of the i-th, or no_id.
-template <class ArcOf>
-std::vector<Id> sizes_of(std::size_t arcs, Offset vertices, const ArcOf& arc_of) {
-  auto sizes = of_parts("GALE::count_on_arcs", vertices, [&](Offset begin, Offset end) {
-    std::vector<Id> mine(arcs, 0);
-    Id last = no_id, run = 0;  // neighbours are mostly on one arc: to add one by one would wait for what was added
-    const auto add_run = [&] {
-      if (last != no_id) mine[last] += run;
-    };
-    for (Offset i = begin; i < end; ++i, ++run) {
-      const Id arc = arc_of(i);
-      if (arc == last) continue;
-      add_run();
-      last = arc;
-      run = 0;
-    }
-    add_run();
-    return mine;
-  });
-  parallel_for("GALE::add_on_arcs", HostExecutionSpace(), static_cast<Offset>(arcs), [&](Offset arc) {
-    for (std::size_t part = 1; part < sizes.size(); ++part) sizes[0][arc] += sizes[part][arc];
-  });
-  return std::move(sizes[0]);
-}
-
-/// Gives a tree the arcs of its vertices: those of nodes may be any, and are set here. Counts the vertices on each.
-void set_arcs(MergeTree& tree, std::vector<Id> arc_of);
+/// Sets the arcs of a tree's nodes, which are any before, and takes them from those that they were counted on.
+void set_arcs_of_nodes(MergeTree& tree);
 
 }  // namespace gale::detail

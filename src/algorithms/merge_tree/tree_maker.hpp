@@ -44,8 +44,8 @@ class TreeMaker {
   std::vector<MergeTree> make(const ThresholdOfTree* threshold) const {
     std::vector<ArcsOfNodes> claims;
     std::vector<MergeTree> made = make_nodes(threshold, claims);
-    auto arcs = arcs_of_vertices(space_, order_.mesh(), climbs_, claims);
-    for (std::size_t i = 0; i < made.size(); ++i) set_arcs(made[i], std::move(arcs[i]));
+    find_arcs_of_vertices(space_, order_.mesh(), climbs_, claims, made);
+    for (MergeTree& tree : made) set_arcs_of_nodes(tree);
     return made;
   }
 

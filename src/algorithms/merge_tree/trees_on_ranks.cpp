@@ -15,23 +15,27 @@ namespace gale::detail {
 
 namespace {
 
-/// Gives a tree the arcs of what this rank holds, and counts those of all. Collective.
-void set_arcs_on_ranks(const Mesh& mesh, const Mesh& excerpt, MergeTree& tree, std::vector<Id> arc_of) {
+/// Sets the arcs of nodes in a tree that has those of what this rank holds, and counts on each what all ranks own.
+/// Collective.
+void set_arcs_on_ranks(const Mesh& mesh, const Mesh& excerpt, MergeTree& tree) {
   const Ranks& ranks = mesh.exchange().ranks();
   std::vector<Id> node;  // by input id; no_id where it isn't here
   std::vector<std::int64_t> sizes;
+  std::vector<Id>& arc_of = tree.arc_of;
   together(ranks, [&] {
     node.resize(tree.vertices.size());
-    parallel_for("GALE::nodes_here", HostExecutionSpace(), node.size(), [&](Offset i) {
-      node[i] = mesh.vertex_of(excerpt.vertex_id(tree.vertices[i]));
-      if (node[i] != no_id) arc_of[node[i]] = no_id;
-    });
-    const std::vector<Id> held = sizes_of(tree.arcs.size(), mesh.vertices(), [&](Offset i) { return arc_of[i]; });
+    parallel_for("GALE::nodes_here", HostExecutionSpace(), node.size(),
+                 [&](Offset i) { node[i] = mesh.vertex_of(excerpt.vertex_id(tree.vertices[i])); });
+    for (const MergeArc& arc : tree.arcs) sizes.push_back(arc.size);
+    for (const Id vertex : node) {
+      const Id arc = vertex == no_id ? no_id : std::exchange(arc_of[vertex], no_id);
+      if (arc != no_id) --sizes[arc];
+    }
     const auto& ghosts = mesh.exchange().from_owners().slots();
-    const std::vector<Id> of_others =
-        sizes_of(tree.arcs.size(), ghosts.extent(0), [&](Offset i) { return arc_of[ghosts(i)]; });
-    sizes.resize(held.size());
-    std::transform(held.begin(), held.end(), of_others.begin(), sizes.begin(), std::minus<std::int64_t>());
+    const auto of_ghosts =
+        tabulated<Id>("GALE::arcs_of_ghosts", ghosts.extent(0), [&](Offset i) { return arc_of[ghosts(i)]; });
+    const std::vector<Id> of_others = sizes_of_arcs(HostExecutionSpace(), tree.arcs.size(), of_ghosts);
+    std::transform(sizes.begin(), sizes.end(), of_others.begin(), sizes.begin(), std::minus<std::int64_t>());
     require_ids("arcs of trees", static_cast<Offset>(sizes.size()));
   });
   ranks.sum(sizes.data(), static_cast<int>(sizes.size()));
@@ -43,7 +47,6 @@ void set_arcs_on_ranks(const Mesh& mesh, const Mesh& excerpt, MergeTree& tree, s
         if (node[end] != no_id) arc_of[node[end]] = static_cast<Id>(i);
       }
     }
-    tree.arc_of = std::move(arc_of);
     tree.excerpt = excerpt;
   });
 }
@@ -84,14 +87,13 @@ std::vector<MergeTree> trees_on_ranks(const VertexOrder& order, MirroredGraph gr
     });
     places[side] = ends_of_vertices(*sides[side]->paths, of_ends);
   }
-  std::vector<std::vector<Id>> arcs;
   together(ranks, [&] {
-    arcs = in_worker_or_host_space(places[below].on_device() || places[above].on_device(), [&](const auto& space) {
+    in_worker_or_host_space(places[below].on_device() || places[above].on_device(), [&](const auto& space) {
       const VertexClimbs<std::decay_t<decltype(space)>> climbs(space, order, gathered, places, *maker);
-      return arcs_of_vertices(space, mesh, climbs.climbs, claims);
+      find_arcs_of_vertices(space, mesh, climbs.climbs, claims, made);
     });
   });
-  for (std::size_t i = 0; i < made.size(); ++i) set_arcs_on_ranks(mesh, gathered.mesh(), made[i], std::move(arcs[i]));
+  for (MergeTree& tree : made) set_arcs_on_ranks(mesh, gathered.mesh(), tree);
   return made;
 }
 

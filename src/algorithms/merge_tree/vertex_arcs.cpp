@@ -42,6 +42,43 @@ struct FindArcs {
   }
 };
 
+/// Counts vertices on their arcs, on a device those of the i-th stretch.
+template <class Memory>
+struct CountOnArcs {
+  static constexpr Offset stretch = 64;
+  Array<const Id, Memory> arc_of;
+  Array<Id, Memory> sizes;
+
+  KOKKOS_FUNCTION void operator()(Offset i) const {
+    const Offset begin = i * stretch, count = static_cast<Offset>(arc_of.extent(0));
+    count_from(begin, begin + stretch < count ? begin + stretch : count);
+  }
+
+  /// Counts those from begin to end - 1 by runs, as neighbours are mostly on one arc: to add one by one would wait for
+  /// what was added.
+  KOKKOS_FUNCTION void count_from(Offset begin, Offset end) const {
+    Id last = no_id, run = 0;
+    for (Offset i = begin; i < end; ++i, ++run) {
+      const Id arc = arc_of(i);
+      if (arc == last) continue;
+      add(last, run);
+      last = arc;
+      run = 0;
+    }
+    add(last, run);
+  }
+
+ private:
+  KOKKOS_FUNCTION void add(Id arc, Id run) const {
+    if (arc == no_id) return;
+    if constexpr (is_device_memory<Memory>) {
+      Kokkos::atomic_add(&sizes(arc), run);
+    } else {
+      sizes(arc) += run;
+    }
+  }
+};
+
 /// Finds the node of a vertex on one side.
 template <class Memory>
 struct NodeOf {
@@ -52,38 +89,61 @@ struct NodeOf {
 }  // namespace
 
 template <class Space>
-std::vector<std::vector<Id>> arcs_of_vertices(const Space& space, const Mesh& mesh,
-                                              const std::array<SideClimb<MemoryOf<Space>>, 2>& sides,
-                                              const std::vector<ArcsOfNodes>& trees) {
+void find_arcs_of_vertices(const Space& space, const Mesh& mesh, const std::array<SideClimb<MemoryOf<Space>>, 2>& sides,
+                           const std::vector<ArcsOfNodes>& claims, std::vector<MergeTree>& trees) {
   using Memory = MemoryOf<Space>;
   FindArcs<Memory> find;
   find.input = mesh.vertices_in_input<Memory>();
   find.count = static_cast<int>(trees.size());
-  std::vector<std::vector<Id>> found(trees.size());
   const auto make_room = [&] {
-    for (std::vector<Id>& arcs : found) arcs = unwritten<Id>(mesh.vertices());
+    for (MergeTree& tree : trees) tree.arc_of = unwritten<Id>(mesh.vertices());
   };
   if constexpr (!is_device<Space>) make_room();
   for (int tree = 0; tree < find.count; ++tree) {
     for (const Side side : {below, above}) {
-      find.trees[tree].by_node[side] = in_memory<Memory>(trees[tree][side]);
-      find.climbs[side] |= !trees[tree][side].empty();
+      find.trees[tree].by_node[side] = in_memory<Memory>(claims[tree][side]);
+      find.climbs[side] |= !claims[tree][side].empty();
     }
     if constexpr (is_device<Space>) {
       find.trees[tree].arc_of = allocate<Array<Id, Memory>>("GALE::arc_of", mesh.vertices());
     } else {
-      find.trees[tree].arc_of = Array<Id, Memory>(found[tree].data(), found[tree].size());
+      find.trees[tree].arc_of = Array<Id, Memory>(trees[tree].arc_of.data(), mesh.vertices());
     }
   }
   for (const Side side : {below, above}) find.sides[side] = sides[side];
   parallel_for("GALE::find_arcs", space, mesh.vertices(), find);
   if constexpr (is_device<Space>) make_room();  // meanwhile
   space.fence();
-  if constexpr (is_device<Space>) {
-    for (int tree = 0; tree < find.count; ++tree)
-      copy_from_device(found[tree].data(), find.trees[tree].arc_of.data(), found[tree].size() * sizeof(Id));
+  for (std::size_t tree = 0; tree < trees.size(); ++tree) {
+    const auto& arc_of = find.trees[tree].arc_of;
+    if constexpr (is_device<Space>)
+      copy_from_device(trees[tree].arc_of.data(), arc_of.data(), arc_of.extent(0) * sizeof(Id));
+    const std::vector<Id> sizes = sizes_of_arcs<Space>(space, trees[tree].arcs.size(), arc_of);
+    for (std::size_t arc = 0; arc < sizes.size(); ++arc) trees[tree].arcs[arc].size = sizes[arc];
   }
-  return found;
+}
+
+template <class Space>
+std::vector<Id> sizes_of_arcs(const Space& space, std::size_t arcs, const Array<const Id, MemoryOf<Space>>& arc_of) {
+  using Count = CountOnArcs<MemoryOf<Space>>;
+  const Offset count = static_cast<Offset>(arc_of.extent(0));
+  if constexpr (is_device<Space>) {
+    const auto sizes = allocate<Array<Id, MemoryOf<Space>>>("GALE::sizes_of_arcs", arcs);
+    Kokkos::deep_copy(space, sizes, Id(0));
+    parallel_for("GALE::count_on_arcs", space, (count + Count::stretch - 1) / Count::stretch, Count{arc_of, sizes});
+    space.fence();
+    return vector_of(sizes);
+  } else {
+    auto sizes = of_parts("GALE::count_on_arcs", count, [&](Offset begin, Offset end) {
+      std::vector<Id> mine(arcs, 0);
+      Count{arc_of, Array<Id, HostMemory>(mine.data(), arcs)}.count_from(begin, end);
+      return mine;
+    });
+    parallel_for("GALE::add_on_arcs", space, static_cast<Offset>(arcs), [&](Offset arc) {
+      for (std::size_t part = 1; part < sizes.size(); ++part) sizes[0][arc] += sizes[part][arc];
+    });
+    return std::move(sizes[0]);
+  }
 }
 
 template <class Space>
@@ -92,8 +152,10 @@ std::vector<Id> nodes_of(const Space& space, const SideClimb<MemoryOf<Space>>& s
 }
 
 #define GALE_INSTANTIATE(Space)                                                                                      \
-  template std::vector<std::vector<Id>> arcs_of_vertices<Space>(                                                     \
-      const Space&, const Mesh&, const std::array<SideClimb<MemoryOf<Space>>, 2>&, const std::vector<ArcsOfNodes>&); \
+  template void find_arcs_of_vertices<Space>(const Space&, const Mesh&,                                              \
+                                             const std::array<SideClimb<MemoryOf<Space>>, 2>&,                       \
+                                             const std::vector<ArcsOfNodes>&, std::vector<MergeTree>&);              \
+  template std::vector<Id> sizes_of_arcs<Space>(const Space&, std::size_t, const Array<const Id, MemoryOf<Space>>&); \
   template std::vector<Id> nodes_of<Space>(const Space&, const SideClimb<MemoryOf<Space>>&, const std::vector<Id>&)
 GALE_IN_EACH_SPACE(GALE_INSTANTIATE);
 #undef GALE_INSTANTIATE

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <gale/algorithms/merge_tree.hpp>
 #include <gale/algorithms/merge_tree/lifted_tree.hpp>
 #include <gale/algorithms/morse_smale/jump.hpp>
 #include <gale/base/bits.hpp>
@@ -33,12 +34,15 @@ inline constexpr std::uint64_t no_claim = ~std::uint64_t(0);  ///< its arc is no
 /// The claims of the arcs of one tree, by side and node; none where a side doesn't matter.
 using ArcsOfNodes = std::array<ArcClaims, 2>;
 
-/// The arcs of all vertices in each of up to three trees, by input id. A side that no tree has claims on needn't be
-/// there.
+/// Finds the arcs of all vertices in each of up to three trees, by input id, and how many vertices are on each arc;
+/// nodes count where they are found. A side that no tree has claims on needn't be there.
 template <class Space>
-std::vector<std::vector<Id>> arcs_of_vertices(const Space& space, const Mesh& mesh,
-                                              const std::array<SideClimb<MemoryOf<Space>>, 2>& sides,
-                                              const std::vector<ArcsOfNodes>& trees);
+void find_arcs_of_vertices(const Space& space, const Mesh& mesh, const std::array<SideClimb<MemoryOf<Space>>, 2>& sides,
+                           const std::vector<ArcsOfNodes>& claims, std::vector<MergeTree>& trees);
+
+/// How many vertices each of so many arcs has; `arc_of` is that of each, or no_id.
+template <class Space>
+std::vector<Id> sizes_of_arcs(const Space& space, std::size_t arcs, const Array<const Id, MemoryOf<Space>>& arc_of);
 
 /// The nodes that some vertices find on one side.
 template <class Space>
