@@ -57,10 +57,8 @@ CriticalType type_of_node(int lower_arcs, int upper_arcs) {
 
 }  // namespace
 
-MergeTree tree_of(const Mesh& mesh, const std::vector<Id>& nodes, const std::vector<std::pair<Id, Id>>& ends,
-                  std::vector<Id>& place) {
+MergeTree tree_of(std::vector<Id> nodes, const std::vector<std::pair<Id, Id>>& ends, std::vector<Id>& place) {
   MergeTree tree;
-  for (const Id vertex : nodes) tree.vertices.push_back(mesh.vertices_in_input()[vertex]);
   std::vector<Id> sorted(ends.size());
   std::iota(sorted.begin(), sorted.end(), Id(0));
   parallel_sort("GALE::sort_arcs", sorted.begin(), sorted.end(), [&](Id a, Id b) { return ends[a] < ends[b]; });
@@ -73,6 +71,7 @@ MergeTree tree_of(const Mesh& mesh, const std::vector<Id>& nodes, const std::vec
     ++lower_arcs[ends[arc].second];
   }
   for (std::size_t i = 0; i < nodes.size(); ++i) tree.types.push_back(type_of_node(lower_arcs[i], upper_arcs[i]));
+  tree.vertices = std::move(nodes);
   return tree;
 }
 

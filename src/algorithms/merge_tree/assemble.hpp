@@ -25,10 +25,9 @@ struct ContourArcs {
 /// (Carr, Snoeyink and Axen 2003). O(n).
 ContourArcs contour_arcs(const std::array<std::vector<Id>, 2>& parents);
 
-/// A tree without the arcs of vertices, of nodes (GALE's vertices, as they come in the order) and of arcs between them,
+/// A tree without the arcs of vertices, of nodes (input vertices, as they come in the order) and of arcs between them,
 /// a lower and an upper one each. `place` is told where each of the arcs has gone.
-MergeTree tree_of(const Mesh& mesh, const std::vector<Id>& nodes, const std::vector<std::pair<Id, Id>>& ends,
-                  std::vector<Id>& place);
+MergeTree tree_of(std::vector<Id> nodes, const std::vector<std::pair<Id, Id>>& ends, std::vector<Id>& place);
 
 /// Sets the arcs of a tree's nodes, which are any before, and takes them from those that they were counted on.
 void set_arcs_of_nodes(MergeTree& tree);

@@ -4,8 +4,6 @@
 #include <gale/algorithms/links/link_sweep.hpp>
 #include <gale/algorithms/merge_tree.hpp>
 #include <gale/algorithms/merge_tree/extremum_graph.hpp>
-#include <gale/algorithms/morse_smale/jump.hpp>
-#include <gale/base/sort.hpp>
 #include <gale/base/transfer.hpp>
 
 namespace gale::detail {
@@ -93,20 +91,6 @@ void add_outgrown(const WorkerSpace& space, const VertexOrder& order, const Hand
   space.fence();
 }
 
-/// Leaves of sorted meetings those of vertices where two extrema or more meet, each once.
-void keep_meetings_of_several(std::vector<Meeting>& meetings) {
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < meetings.size();) {
-    const std::size_t first = kept;
-    const Id vertex = meetings[i].vertex;
-    for (; i < meetings.size() && meetings[i].vertex == vertex; ++i) {
-      if (kept == first || meetings[kept - 1].other != meetings[i].other) meetings[kept++] = meetings[i];
-    }
-    if (kept == first + 1) kept = first;
-  }
-  meetings.resize(kept);
-}
-
 }  // namespace
 
 ExtremumGraph<MemoryOf<WorkerSpace>> extremum_graph(const WorkerSpace& space, const VertexOrder& order,
@@ -124,33 +108,5 @@ ExtremumGraph<MemoryOf<WorkerSpace>> extremum_graph(const WorkerSpace& space, co
     return graph;
   }
 }
-
-template <class Space>
-FollowedPaths<MemoryOf<Space>> follow_paths(const Space& space, const SideKeys& keys,
-                                            ExtremumGraphSide<MemoryOf<Space>> side) {
-  FollowedPaths<MemoryOf<Space>> paths{std::move(side.extrema), std::move(side.meetings), side.next};
-  parallel_sort("GALE::sort_extrema", paths.extrema.begin(), paths.extrema.end(), keys);
-  const auto places = in_memory<MemoryOf<Space>>(paths.extrema);
-  parallel_for("GALE::end_paths", space, places.extent(0),
-               EndPath<MemoryOf<Space>, std::decay_t<decltype(places)>>{places, paths.ends});
-  jump(space, paths.ends);
-  std::vector<Id> others;
-  others.reserve(paths.meetings.size());
-  for (const Meeting& meeting : paths.meetings) others.push_back(meeting.other);
-  others = ends_of(space, paths.ends, others);
-  for (std::size_t i = 0; i < others.size(); ++i) paths.meetings[i].other = others[i];
-  parallel_sort("GALE::sort_meetings", paths.meetings.begin(), paths.meetings.end(),
-                [&](const Meeting& a, const Meeting& b) {
-                  return a.vertex == b.vertex ? a.other < b.other : keys(a.vertex, b.vertex);
-                });
-  keep_meetings_of_several(paths.meetings);
-  return paths;
-}
-
-#define GALE_INSTANTIATE(Space)                                                              \
-  template FollowedPaths<MemoryOf<Space>> follow_paths<Space>(const Space&, const SideKeys&, \
-                                                              ExtremumGraphSide<MemoryOf<Space>>)
-GALE_IN_EACH_SPACE(GALE_INSTANTIATE);
-#undef GALE_INSTANTIATE
 
 }  // namespace gale::detail

@@ -178,22 +178,4 @@ template <class Space>
 ExtremumGraph<MemoryOf<Space>> extremum_graph_of_grid(const Space& space, const VertexOrder& order,
                                                       const SweepOptions& options);
 
-/// Where the paths of one side of an order end. Extrema are known by their places here.
-template <class Memory>
-struct FollowedPaths {
-  /// GALE's vertices, as the side comes to them.
-  std::vector<Id> extrema;
-
-  /// Vertices where paths of several extrema meet, with each of these; as the side comes to them.
-  std::vector<Meeting> meetings;
-
-  /// The extremum of each vertex: `end_at` its place (jump.hpp).
-  Array<Id, Memory> ends;
-};
-
-/// Follows all paths of a side to their ends, by pointer jumping. `keys` are those of the host.
-template <class Space>
-FollowedPaths<MemoryOf<Space>> follow_paths(const Space& space, const SideKeys& keys,
-                                            ExtremumGraphSide<MemoryOf<Space>> side);
-
 }  // namespace gale::detail

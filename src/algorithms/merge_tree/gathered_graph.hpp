@@ -12,6 +12,7 @@
 #include <gale/algorithms/excerpt/excerpt_mesh.hpp>
 #include <gale/algorithms/excerpt/gathering.hpp>
 #include <gale/algorithms/merge_tree/joined_extrema.hpp>
+#include <gale/algorithms/merge_tree/tree_maker.hpp>
 #include <gale/algorithms/merge_tree/trees_on_ranks.hpp>
 #include <gale/algorithms/morse_smale/paths_on_ranks.hpp>
 #include <gale/base/hash_table.hpp>
@@ -111,41 +112,44 @@ class GatheredGraph {
     together(ranks_, [&] { finish(); });
   }
 
-  /// The graph, whose vertices are places by ascending id.
-  ExtremumGraph<HostMemory> graph() const {
-    ExtremumGraph<HostMemory> small;
+  /// What trees are made of: the graph's vertices are places in the order, those of mesh() the input's.
+  TreeParts<HostMemory> parts() const {
+    TreeParts<HostMemory> parts;
     const Offset count = static_cast<Offset>(vertices.size());
+    parts.compared.vertices.resize(count);
+    parts.compared.keys.resize(count);
+    parallel_for("GALE::gathered_keys", HostExecutionSpace(), count, [&](Offset i) {
+      parts.compared.vertices[i] = static_cast<Id>(i);
+      parts.compared.keys[i] = key_of(i);
+    });
+    parts.input = vertex_of_;
+    parts.keys = parts.compared.keys.data();
     for (const Side side : {below, above}) {
-      ExtremumGraphSide<HostMemory>& of = small[side];
-      of.next = allocate<Array<Id, HostMemory>>("GALE::next_of_gathered", count);
-      parallel_for("GALE::next_of_gathered", HostExecutionSpace(), count, [&](Offset i) {
-        of.next(place_of_[i]) = is_extremum(i, side) ? no_id : index_.find(vertices[i].ends[side]);
+      ExtremumGraphSide<HostMemory>& of = parts.graph[side];
+      of.next = tabulated<Id>("GALE::next_of_gathered", count, [&](Offset i) {
+        return is_extremum(i, side) ? no_id : place_of(vertices[i].ends[side]);
       });
       of.extrema = collected<Id>("GALE::gathered_extrema", count, [&](Offset i, const auto& add) {
-        if (is_extremum(i, side)) add(place_of_[i]);
+        if (is_extremum(i, side)) add(static_cast<Id>(i));
       });
       const std::vector<TreeMeeting>& meetings = meetings_[side];
       of.meetings.resize(meetings.size());
       parallel_for("GALE::gathered_meetings", HostExecutionSpace(), meetings.size(), [&](Offset i) {
-        of.meetings[i] = {index_.find(meetings[i].vertex), index_.find(meetings[i].extremum)};
+        of.meetings[i] = {place_of(meetings[i].vertex), place_of(meetings[i].extremum)};
       });
     }
-    return small;
+    return parts;
   }
 
+  /// The key of the vertex at a place: what is below all has 0.
+  static KOKKOS_FUNCTION std::uint64_t key_of(std::int64_t place) { return static_cast<std::uint64_t>(place + 1); }
+
   const Mesh& mesh() const { return *mesh_; }
-  const VertexOrder& order() const { return *order_; }
 
-  /// The place of a vertex among them, by ascending id.
-  Id place_of(GlobalId id) const { return index_.find(id); }
-
-  /// The keys of `vertices`: they ascend.
-  std::vector<std::uint64_t> keys() const {
-    const std::uint64_t* const by_place = order_->keys();
-    auto keys = unwritten<std::uint64_t>(place_of_.size());
-    parallel_for("GALE::gathered_keys", HostExecutionSpace(), keys.size(),
-                 [&](Offset i) { keys[i] = by_place[place_of_[i]]; });
-    return keys;
+  /// The place of a vertex in the order; no_id if it isn't one of them.
+  Id place_of(GlobalId id) const {
+    const Id vertex = index_.find(id);
+    return vertex == no_id ? no_id : in_order_(vertex);
   }
 
   /// The places of extrema as a side comes to them, by their places among vertices; no_id for others.
@@ -154,7 +158,7 @@ class GatheredGraph {
     Id count = 0;
     for (std::size_t k = 0; k < vertices.size(); ++k) {
       const std::size_t i = side == below ? k : vertices.size() - 1 - k;
-      if (is_extremum(i, side)) places[place_of_[i]] = count++;
+      if (is_extremum(i, side)) places[i] = count++;
     }
     return places;
   }
@@ -235,19 +239,20 @@ class GatheredGraph {
     const DistinctIds by_id =
         distinct_ids(tabulated<GlobalId>("GALE::gathered_ids", count, [&](Offset i) { return vertices[i].id; }));
     index_ = GlobalIndex(by_id.ids);
-    place_of_.resize(count);
-    parallel_for("GALE::gathered_places", HostExecutionSpace(), count,
-                 [&](Offset place) { place_of_[by_id.places(place)] = static_cast<Id>(place); });
+    in_order_ = by_id.places;
+    vertex_of_.resize(count);
+    parallel_for("GALE::gathered_vertices", HostExecutionSpace(), count,
+                 [&](Offset vertex) { vertex_of_[in_order_(vertex)] = static_cast<Id>(vertex); });
     mesh_ = excerpt_mesh<4>(by_id.ids, GlobalIds(), CellCorners<4, Id, HostMemory>());
-    order_ = VertexOrder::of_places(*mesh_, vector_of(by_id.places));
   }
 
   const Ranks& ranks_;
   std::array<std::vector<TreeMeeting>, 2> meetings_;
   GlobalIndex index_;
-  std::vector<Id> place_of_;  ///< of each of `vertices`, by ascending id
   std::optional<Mesh> mesh_;
-  std::optional<VertexOrder> order_;
+  Array<const Id, HostMemory>
+      in_order_;               ///< of the mesh's vertices, which are by ascending id, the places in the order
+  std::vector<Id> vertex_of_;  ///< the mesh's vertex at each place
 };
 
 }  // namespace gale::detail

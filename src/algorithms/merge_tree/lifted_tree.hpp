@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -27,16 +28,14 @@ struct LiftedTree {
   }
 };
 
-/// Lifts a tree of nodes that are GALE's `vertices`, with a parent or none (no_id) each.
+/// Lifts a tree of nodes with a key, as the side sees it, and a parent or none (no_id) each.
 template <class Memory>
-LiftedTree<Memory> lifted_tree(const SideKeys& keys, const std::vector<Id>& vertices, const std::vector<Id>& parents) {
-  const auto count = static_cast<Id>(vertices.size());
+LiftedTree<Memory> lifted_tree(const std::vector<std::uint64_t>& keys, const std::vector<Id>& parents) {
+  const auto count = static_cast<Id>(keys.size());
   std::vector<Id> up(count);
   const auto keys_here = allocate<Array<std::uint64_t, HostMemory>>("GALE::node_keys", count);
-  for (Id node = 0; node < count; ++node) {
-    up[node] = parents[node] == no_id ? node : parents[node];
-    keys_here(node) = keys[vertices[node]];
-  }
+  std::copy(keys.begin(), keys.end(), keys_here.data());
+  for (Id node = 0; node < count; ++node) up[node] = parents[node] == no_id ? node : parents[node];
   int levels = 1;
   for (bool goes_on = true; goes_on;) {
     const std::size_t begin = up.size() - static_cast<std::size_t>(count);

@@ -73,11 +73,11 @@ class ExtremumJoiner {
 };
 
 /// Numbers nodes anew: as the side comes to them.
-void sort_nodes(const SideKeys& keys, MergeForest& forest) {
+void sort_nodes(const SidePlaces& comes_before, MergeForest& forest) {
   std::vector<Id> sorted(forest.vertices.size()), number(sorted.size());
   std::iota(sorted.begin(), sorted.end(), Id(0));
   parallel_sort("GALE::sort_nodes", sorted.begin(), sorted.end(),
-                [&](Id a, Id b) { return keys(forest.vertices[a], forest.vertices[b]); });
+                [&](Id a, Id b) { return comes_before(forest.vertices[a], forest.vertices[b]); });
   for (std::size_t i = 0; i < sorted.size(); ++i) number[sorted[i]] = static_cast<Id>(i);
   const auto renumbered = [&](Id node) { return node == no_id ? no_id : number[node]; };
   MergeForest to = forest;
@@ -92,8 +92,9 @@ void sort_nodes(const SideKeys& keys, MergeForest& forest) {
 
 }  // namespace
 
-MergeForest merge_forest(const SideKeys& keys, const std::vector<Id>& extrema, const std::vector<Meeting>& meetings,
+MergeForest merge_forest(Side side, const std::vector<Id>& extrema, const std::vector<Meeting>& meetings,
                          std::vector<Meeting> lasts) {
+  const SidePlaces comes_before{side};
   ExtremumJoiner joiner(extrema);
   for (std::size_t i = 0, next = 0; i < meetings.size(); i = next) {
     stop_if_asked_at(static_cast<std::int64_t>(i));
@@ -101,9 +102,9 @@ MergeForest merge_forest(const SideKeys& keys, const std::vector<Id>& extrema, c
     joiner.join(meetings.data() + i, meetings.data() + next);
   }
   parallel_sort("GALE::sort_lasts", lasts.begin(), lasts.end(),
-                [&](const Meeting& a, const Meeting& b) { return keys(b.vertex, a.vertex); });
+                [&](const Meeting& a, const Meeting& b) { return comes_before(b.vertex, a.vertex); });
   for (const Meeting& last : lasts) joiner.end_at(last);
-  sort_nodes(keys, joiner.forest);
+  sort_nodes(comes_before, joiner.forest);
   return std::move(joiner.forest);
 }
 

@@ -20,15 +20,14 @@ namespace detail {
 namespace {
 
 /// What a threshold needs; throws gale::Error if it hasn't got it.
-std::optional<ThresholdOfTree> threshold_of(const Mesh& mesh, const MergeTreeOptions& options) {
+std::optional<ThresholdOfTree> threshold_of(const MergeTreeOptions& options) {
   if (options.threshold == 0) return std::nullopt;
   if (std::isnan(options.threshold)) throw Error("the threshold of a tree is no number");
   if (!options.value) throw Error("a tree simplified by persistence needs the field's values");
-  const OtherIds input = mesh.vertices_in_input();
-  return ThresholdOfTree{options.threshold, [input, &options](Id vertex) {
-                           const double value = options.value(input[vertex]);
+  return ThresholdOfTree{options.threshold, [&options](Id vertex) {
+                           const double value = options.value(vertex);
                            if (std::isnan(value))
-                             throw Error("vertex " + std::to_string(input[vertex]) + " has no field value: it is NaN");
+                             throw Error("vertex " + std::to_string(vertex) + " has no field value: it is NaN");
                            return value;
                          }};
 }
@@ -37,14 +36,14 @@ std::optional<ThresholdOfTree> threshold_of(const Mesh& mesh, const MergeTreeOpt
 template <class Space>
 std::vector<MergeTree> trees_of(const Space& space, const VertexOrder& order, ExtremumGraph<MemoryOf<Space>> graph,
                                 const std::vector<Tree>& trees, const ThresholdOfTree* threshold) {
-  return TreeMaker<Space>(space, order, std::move(graph), trees).make(threshold);
+  return TreeMaker<Space>(space, parts_of_trees(order, std::move(graph), trees), trees).make(order.mesh(), threshold);
 }
 
 /// `make(order, trees, threshold)` makes trees as trees_of does.
 template <class Make>
 std::vector<MergeTree> find_trees(const VertexOrder& order, std::vector<Tree> trees, const MergeTreeOptions& options,
                                   Computed* computed, const Make& make) {
-  const auto threshold = threshold_of(order.mesh(), options);
+  const auto threshold = threshold_of(options);
   const bool simplifies = threshold && trees.back() == Tree::contour;
   if (simplifies) trees.pop_back();
   std::vector<MergeTree> found;

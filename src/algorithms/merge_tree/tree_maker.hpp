@@ -13,7 +13,7 @@
 
 namespace gale::detail {
 
-/// The field at one of GALE's vertices, where extrema are to be left out.
+/// The field at an input vertex, where extrema are to be left out.
 struct ThresholdOfTree {
   double least;
   std::function<double(Id)> value;
@@ -25,14 +25,45 @@ inline bool are_made_of(Side side, const std::vector<Tree>& trees) {
   return std::any_of(trees.begin(), trees.end(), [&](Tree tree) { return tree == of_side || tree == Tree::contour; });
 }
 
+/// What trees are made of.
+template <class Memory>
+struct TreeParts {
+  ExtremumGraph<Memory> graph;  ///< whose extrema, and vertices where paths meet, are places in `compared`
+  ComparedVertices compared;
+  std::vector<Id> input;                ///< the input vertex of each of these
+  const std::uint64_t* keys = nullptr;  ///< of all vertices of the graph, where its arrays are
+};
+
+/// The parts of trees of a whole mesh. Keys that the host needs are fetched by themselves.
+template <class Memory>
+TreeParts<Memory> parts_of_trees(const VertexOrder& order, ExtremumGraph<Memory> graph,
+                                 const std::vector<Tree>& trees) {
+  std::vector<std::vector<Meeting>*> meetings;
+  for (const Side side : {below, above}) {
+    if (are_made_of(side, trees)) meetings.push_back(&graph[side].meetings);
+  }
+  TreeParts<Memory> parts;
+  parts.compared = ComparedVertices::numbered({&graph[below].extrema, &graph[above].extrema}, meetings,
+                                              [&](const std::vector<Id>& some) { return order.keys_of(some); });
+  parts.input = order.mesh().input_of_vertices(parts.compared.vertices);
+  parts.keys = order.keys_in<Memory>().data();
+  parts.graph = std::move(graph);
+  return parts;
+}
+
 /// Makes trees of an extremum graph.
 template <class Space>
 class TreeMaker {
   using Memory = MemoryOf<Space>;
 
  public:
-  TreeMaker(const Space& space, const VertexOrder& order, ExtremumGraph<Memory> graph, const std::vector<Tree>& trees)
-      : space_(space), order_(order), trees_(trees) {
+  TreeMaker(const Space& space, TreeParts<Memory> parts, const std::vector<Tree>& trees)
+      : space_(space),
+        compared_(std::move(parts.compared)),
+        input_(std::move(parts.input)),
+        keys_(parts.keys),
+        trees_(trees) {
+    ExtremumGraph<Memory>& graph = parts.graph;
     uses_ = {are_made_of(below, trees), are_made_of(above, trees)};
     std::array<std::vector<Id>, 2> extrema = {graph[below].extrema, graph[above].extrema};
     for (const Side side : {below, above}) {
@@ -41,10 +72,11 @@ class TreeMaker {
     choose_nodes();
   }
 
-  std::vector<MergeTree> make(const ThresholdOfTree* threshold) const {
+  /// Those of a mesh whose vertices are the graph's.
+  std::vector<MergeTree> make(const Mesh& mesh, const ThresholdOfTree* threshold) const {
     std::vector<ArcsOfNodes> claims;
     std::vector<MergeTree> made = make_nodes(threshold, claims);
-    find_arcs_of_vertices(space_, order_.mesh(), climbs_, claims, made);
+    find_arcs_of_vertices(space_, mesh, climbs_, claims, made);
     for (MergeTree& tree : made) set_arcs_of_nodes(tree);
     return made;
   }
@@ -64,15 +96,9 @@ class TreeMaker {
   bool uses(Side side) const { return uses_[side]; }
 
  private:
-  SideKeys keys(Side side) const { return {order_.keys(), side}; }
-  SideKeys keys_there(Side side) const { return {order_.keys_in<Memory>().data(), side}; }
-
   void grow(Side side, ExtremumGraphSide<Memory> graph, const std::vector<Id>& others) {
-    const auto paths = follow_paths(space_, keys(side), std::move(graph));
-    const std::vector<Id> ends = ends_of(space_, paths.ends, others);
-    std::vector<Meeting> lasts;
-    for (std::size_t i = 0; i < others.size(); ++i) lasts.push_back({others[i], ends[i]});
-    forests_[side] = merge_forest(keys(side), paths.extrema, paths.meetings, std::move(lasts));
+    const auto paths = follow_paths(space_, side, compared_, std::move(graph));
+    forests_[side] = merge_forest(space_, side, compared_, paths, others);
     ends_[side] = paths.ends;
   }
 
@@ -80,19 +106,22 @@ class TreeMaker {
                           const std::vector<Id>& parents) const {
     const auto copy = allocate<Array<Id, HostMemory>>("GALE::leaves", leaf.size());
     std::copy(leaf.begin(), leaf.end(), copy.data());
-    return {keys_there(side), ends_[side], in_memory<Memory>(copy), lifted_tree<Memory>(keys(side), vertices, parents)};
+    return {{keys_, side},
+            ends_[side],
+            in_memory<Memory>(copy),
+            lifted_tree<Memory>(compared_.keys_at(vertices, side), parents)};
   }
 
   /// The nodes of all that is made, those of both sides together, and the way of vertices to them.
   void choose_nodes() {
     for (const Side side : {below, above})
       nodes_.insert(nodes_.end(), forests_[side].vertices.begin(), forests_[side].vertices.end());
-    sort_distinct("GALE::sort_tree_nodes", nodes_, keys(below));
+    sort_distinct("GALE::sort_tree_nodes", nodes_);
     for (const Side side : {below, above}) {
       if (!uses_[side]) continue;
       const MergeForest& forest = forests_[side];
       if (uses_[opposite(side)]) {
-        base_[side] = nodes_of(space_, climb(side, forest.leaf, forest.vertices, forest.parent), nodes_);
+        base_[side] = nodes_of(space_, climb(side, forest.leaf, forest.vertices, forest.parent), compared_.at(nodes_));
       } else {
         base_[side].resize(nodes_.size());
         std::iota(base_[side].begin(), base_[side].end(), Id(0));
@@ -111,20 +140,22 @@ class TreeMaker {
   MergeTree one_sided(Side side, const ThresholdOfTree* threshold, ArcsOfNodes& claims) const {
     const MergeForest& forest = forests_[side];
     const PrunedForest kept =
-        pruned(forest, threshold == nullptr ? std::vector<bool>(forest.leaf.size(), true)
-                                            : persistent_extrema(forest, threshold->value, threshold->least));
+        pruned(forest, threshold == nullptr
+                           ? std::vector<bool>(forest.leaf.size(), true)
+                           : persistent_extrema(
+                                 forest, [&](Id place) { return threshold->value(input_[place]); }, threshold->least));
     const auto count = static_cast<Id>(kept.nodes.size());
     const auto number = [&](Id place) { return side == below ? place : count - 1 - place; };
     std::vector<Id> vertices(count), arc_of(count, no_id), place;
     std::vector<std::pair<Id, Id>> ends;
     for (Id i = 0; i < count; ++i) {
-      vertices[number(i)] = forest.vertices[kept.nodes[i]];
+      vertices[number(i)] = input_[forest.vertices[kept.nodes[i]]];
       if (kept.parent[i] == no_id) continue;
       arc_of[i] = static_cast<Id>(ends.size());
       const Id one = number(i), other = number(kept.parent[i]);
       ends.emplace_back(std::min(one, other), std::max(one, other));
     }
-    MergeTree tree = tree_of(order_.mesh(), vertices, ends, place);
+    MergeTree tree = tree_of(std::move(vertices), ends, place);
     for (Id i = 0; i < count; ++i) {
       if (arc_of[i] != no_id) arc_of[i] = place[arc_of[i]];
       // What hangs on a root belongs to an arc that ends there.
@@ -140,7 +171,9 @@ class TreeMaker {
   MergeTree contour(ArcsOfNodes& claims) const {
     const ContourArcs arcs = contour_arcs(parents_);
     std::vector<Id> place;
-    MergeTree tree = tree_of(order_.mesh(), nodes_, arcs.ends, place);
+    std::vector<Id> vertices;
+    for (const Id node : nodes_) vertices.push_back(input_[node]);
+    MergeTree tree = tree_of(std::move(vertices), arcs.ends, place);
     for (const Side side : {below, above}) {
       for (const Id by : arcs.taken_by[side])
         claims[side].push_back(by == ContourArcs::nobody ? no_claim : pair_key(by, place[by]));
@@ -149,12 +182,14 @@ class TreeMaker {
   }
 
   Space space_;
-  const VertexOrder& order_;
+  const ComparedVertices compared_;
+  const std::vector<Id> input_;
+  const std::uint64_t* const keys_;
   const std::vector<Tree> trees_;
   std::array<bool, 2> uses_;
   std::array<MergeForest, 2> forests_;
   std::array<Array<Id, Memory>, 2> ends_;
-  std::vector<Id> nodes_;                ///< as they come in the order
+  std::vector<Id> nodes_;                ///< places among what is compared, ascending
   std::array<std::vector<Id>, 2> base_;  ///< of each, by side, the forest's node whose arc it begins or lies on
   std::array<std::vector<Id>, 2> parents_;
   std::array<SideClimb<Memory>, 2> climbs_;

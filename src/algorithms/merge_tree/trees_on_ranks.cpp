@@ -74,7 +74,7 @@ std::vector<MergeTree> trees_on_ranks(const VertexOrder& order, MirroredGraph gr
   std::vector<ArcsOfNodes> claims;
   std::vector<MergeTree> made;
   together(ranks, [&] {
-    maker.emplace(HostExecutionSpace(), gathered.order(), gathered.graph(), trees);
+    maker.emplace(HostExecutionSpace(), gathered.parts(), trees);
     made = maker->make_nodes(options.threshold == 0 ? nullptr : &threshold, claims);
   });
   std::array<Mirrored<Id>, 2> places;

@@ -42,10 +42,12 @@ struct FindArcs {
   }
 };
 
+/// How many vertices that follow one another a thread of a device counts.
+constexpr Offset stretch = 64;
+
 /// Counts vertices on their arcs, on a device those of the i-th stretch.
 template <class Memory>
 struct CountOnArcs {
-  static constexpr Offset stretch = 64;
   Array<const Id, Memory> arc_of;
   Array<Id, Memory> sizes;
 
@@ -130,7 +132,7 @@ std::vector<Id> sizes_of_arcs(const Space& space, std::size_t arcs, const Array<
   if constexpr (is_device<Space>) {
     const auto sizes = allocate<Array<Id, MemoryOf<Space>>>("GALE::sizes_of_arcs", arcs);
     Kokkos::deep_copy(space, sizes, Id(0));
-    parallel_for("GALE::count_on_arcs", space, (count + Count::stretch - 1) / Count::stretch, Count{arc_of, sizes});
+    parallel_for("GALE::count_on_arcs", space, (count + stretch - 1) / stretch, Count{arc_of, sizes});
     space.fence();
     return vector_of(sizes);
   } else {

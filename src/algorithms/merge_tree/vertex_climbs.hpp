@@ -17,9 +17,9 @@ namespace gale::detail {
 template <class Memory>
 struct PutAmongGathered {
   KeysHere<Memory> here;
-  Array<const std::uint64_t, Memory> keys;      ///< of vertices
-  Array<const std::uint64_t, Memory> gathered;  ///< those of what was gathered, ascending
-  Array<const Id, Memory> places;               ///< of the extrema at which paths end, by vertex's input id
+  Array<const std::uint64_t, Memory> keys;  ///< of vertices
+  std::int64_t gathered;                    ///< how many were gathered
+  Array<const Id, Memory> places;           ///< of the extrema at which paths end, by vertex's input id
   OtherIds input;
   Side side;
   Array<std::uint64_t, Memory> keys_among;
@@ -28,9 +28,7 @@ struct PutAmongGathered {
   KOKKOS_FUNCTION void operator()(Offset v) const {
     const auto found = here.place_of(keys(v));
     const std::int64_t place = found.is_one || side == above ? found.first : found.first - 1;
-    keys_among(v) = place < 0                                               ? 0
-                    : place < static_cast<std::int64_t>(gathered.extent(0)) ? gathered(place)
-                                                                            : ~std::uint64_t(0);
+    keys_among(v) = place < gathered ? GatheredGraph::key_of(place) : ~std::uint64_t(0);
     ends(v) = end_at(places(input[static_cast<Id>(v)]));
   }
 };
@@ -46,16 +44,15 @@ class VertexClimbs {
                const std::array<Mirrored<Id>, 2>& places, const TreeMaker<HostExecutionSpace>& maker) {
     const Mesh& mesh = order.mesh();
     const KeysHere<Memory> here(order, gathered.vertices);
-    const std::vector<std::uint64_t> sorted = gathered.keys();
-    const auto in_order = in_memory<Memory>(sorted);
     for (const Side side : {below, above}) {
       if (!maker.uses(side)) continue;
       const SideClimb<HostMemory>& climb = maker.climbs()[side];
       keys_[side] = allocate<Array<std::uint64_t, Memory>>("GALE::keys_among_gathered", mesh.vertices());
       const auto ends = allocate<Array<Id, Memory>>("GALE::ends_of_paths", mesh.vertices());
       parallel_for("GALE::put_among_gathered", space, mesh.vertices(),
-                   PutAmongGathered<Memory>{here, order.keys_in<Memory>(), in_order, places[side].in<Memory>(),
-                                            mesh.vertices_in_input<Memory>(), side, keys_[side], ends});
+                   PutAmongGathered<Memory>{
+                       here, order.keys_in<Memory>(), static_cast<std::int64_t>(gathered.vertices.size()),
+                       places[side].in<Memory>(), mesh.vertices_in_input<Memory>(), side, keys_[side], ends});
       climbs[side] = {SideKeys(keys_[side].data(), side),
                       ends,
                       in_memory<Memory>(climb.leaf),

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <gale/algorithms/order/ordered_bits.hpp>
@@ -11,6 +13,7 @@
 #include <gale/base/momentary.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/sort.hpp>
+#include <gale/base/threads.hpp>
 #include <gale/base/transfer.hpp>
 #include <gale/mesh/exchange/exchange_plan.hpp>
 
@@ -117,11 +120,24 @@ OrderKeys keys_of_all(const Mesh& mesh, const RawValues<Raw, Memory>& values) {
   });
 }
 
+/// Room for a value for each vertex of a part, with those that this rank has handed over one after the other.
+template <class Space, class Raw>
+Array<Raw, MemoryOf<Space>> own_values(const Space& space, const Mesh& mesh, const RawValues<Raw, HostMemory>& given) {
+  const auto values = allocate<Array<Raw, MemoryOf<Space>>>("GALE::local_values", mesh.vertices());
+  mesh.exchange().from_givers().fill_run(space, given.bits.data(), values.data());
+  return values;
+}
+
+/// `own`: what own_values() has made for the workers, if it was asked.
 template <class Space, class Raw>
 FoundKeys part_keys_in(const Space& space, const Mesh& mesh, const RawValues<Raw, HostMemory>& given,
-                       const EntriesByRank<Raw>& fetched) {
-  const auto values = allocate<Array<Raw, MemoryOf<Space>>>("GALE::local_values", mesh.vertices());
-  mesh.exchange().from_givers().fill(space, given.bits.data(), fetched, values.data());
+                       const std::optional<Array<Raw, WorkerMemory>>& own, const EntriesByRank<Raw>& fetched) {
+  Array<Raw, MemoryOf<Space>> values;
+  if constexpr (is_device<Space>) {
+    if (own) values = *own;
+  }
+  if (values.data() == nullptr) values = own_values(space, mesh, given);
+  mesh.exchange().from_givers().fill_others(space, given.bits.data(), fetched, values.data());
   const RawValues<Raw, MemoryOf<Space>> all{FieldValues<Raw, MemoryOf<Space>>(values.data(), values.extent(0)),
                                             given.kind};
   FoundKeys found = make_keys(space, mesh, all);
@@ -138,9 +154,21 @@ OrderKeys keys_of_part(const Mesh& mesh, const RawValues<Raw, HostMemory>& given
     together(exchange.ranks(), [&] { found.order = keys_of_all(mesh, given); });
     return found.order;
   }
-  const auto fetched = exchange.from_givers().fetch<Raw>(exchange.ranks(), [&](Id place) { return given.bits(place); });
+  std::optional<Array<Raw, WorkerMemory>> own;
+  EntriesByRank<Raw> fetched;
+  // To a device go the part's own values while others' come; if there is no room, part_keys_in finds that, too.
+  const auto copy = [&] { tried([&] { own = own_values(WorkerSpace(), mesh, given); }); };
+  const auto fetch = [&] {
+    fetched = exchange.from_givers().fetch<Raw>(exchange.ranks(), [&](Id place) { return given.bits(place); });
+  };
+  if (mesh.on_device()) {
+    meanwhile(copy, fetch);
+  } else {
+    fetch();
+  }
   together(exchange.ranks(), [&] {
-    found = in_worker_or_host_space(mesh, [&](const auto& space) { return part_keys_in(space, mesh, given, fetched); });
+    found = in_worker_or_host_space(
+        mesh, [&](const auto& space) { return part_keys_in(space, mesh, given, std::exchange(own, {}), fetched); });
   });
   constexpr GlobalId none = std::numeric_limits<GlobalId>::max();
   const bool is_bad = found.bad < mesh.vertices();

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <gale/algorithms/simplify_field/changing_order.hpp>
+#include <gale/base/momentary.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/sort.hpp>
 #include <gale/base/stop.hpp>
@@ -20,19 +21,6 @@ struct TurnedPlaces {
 
   KOKKOS_FORCEINLINE_FUNCTION Offset operator()(Offset rank) const { return side == below ? rank : count - 1 - rank; }
 };
-
-/// The keys of some vertices.
-template <class Space>
-Array<std::uint64_t, HostMemory> keys_of(const Space& space, const Array<std::uint64_t, MemoryOf<Space>>& rank,
-                                         const std::vector<Id>& vertices) {
-  const auto of = in_memory<MemoryOf<Space>>(vertices);
-  const auto keys = allocate<Array<std::uint64_t, MemoryOf<Space>>>("GALE::some_keys", vertices.size());
-  parallel_for(
-      "GALE::some_keys", space, static_cast<Offset>(vertices.size()),
-      KOKKOS_LAMBDA(Offset i) { keys(i) = rank(of(i)); });
-  space.fence();
-  return on_host(keys);
-}
 
 /// What becomes filled: for each vertex the saddle that it follows, and as the how manyth.
 struct FilledVertices {
@@ -135,10 +123,16 @@ ChangingOrder<Space>::ChangingOrder(const Space& space, const VertexOrder& order
 }
 
 template <class Space>
+std::vector<std::uint64_t> ChangingOrder<Space>::keys_of(const std::vector<Id>& some) const {
+  return results_at("GALE::some_keys", space_, some, EntryAt<std::uint64_t, Memory>{rank_});
+}
+
+/// The keys on the host, those of these vertices at least.
+template <class Space>
 const std::uint64_t* ChangingOrder<Space>::keys_on_host(const std::vector<Id>& of) {
   if constexpr (is_device<Space>) {
-    const auto keys = keys_of(space_, rank_, of);
-    for (std::size_t i = 0; i < of.size(); ++i) known_[of[i]] = keys(i);
+    const std::vector<std::uint64_t> keys = keys_of(of);
+    for (std::size_t i = 0; i < of.size(); ++i) known_[of[i]] = keys[i];
     return known_.data();
   } else {
     return rank_.data();

@@ -45,8 +45,8 @@ class ChangingOrder {
   /// The keys where `Space` runs.
   const std::uint64_t* keys() const { return rank_.data(); }
 
-  /// The keys on the host, those of these vertices at least.
-  const std::uint64_t* keys_on_host(const std::vector<Id>& of);
+  /// The keys of some vertices.
+  std::vector<std::uint64_t> keys_of(const std::vector<Id>& some) const;
 
   /// The vertex whose value each has.
   const Array<Id, HostMemory>& value_of() const { return value_of_; }
@@ -56,6 +56,7 @@ class ChangingOrder {
   void fill(Side side, std::vector<FilledBranch> branches, ChangingRoom<Memory>& room);
 
  private:
+  const std::uint64_t* keys_on_host(const std::vector<Id>& of);
   void flood(const SideKeys& keys, FilledBranch& branch, Id number);
   void reorder(Side side, const std::vector<FilledBranch>& branches, ChangingRoom<Memory>& room);
   void update_graph();

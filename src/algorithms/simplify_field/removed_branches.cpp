@@ -23,24 +23,6 @@ ExtremumGraphSide<Memory> copy_in(const ExtremumGraphSide<Memory>& graph, const 
   return copy;
 }
 
-/// All vertices of a side's graph that are compared.
-template <class Memory>
-std::vector<Id> compared(const ExtremumGraph<Memory>& graph, Side side) {
-  std::vector<Id> all = graph[side].extrema;
-  all.insert(all.end(), graph[opposite(side)].extrema.begin(), graph[opposite(side)].extrema.end());
-  for (const Meeting& meeting : graph[side].meetings) all.push_back(meeting.vertex);
-  return all;
-}
-
-template <class Space>
-MergeForest forest_of(const Space& space, const SideKeys& keys, const FollowedPaths<MemoryOf<Space>>& paths,
-                      const std::vector<Id>& others) {
-  const std::vector<Id> ends = ends_of(space, paths.ends, others);
-  std::vector<Meeting> lasts;
-  for (std::size_t i = 0; i < others.size(); ++i) lasts.push_back({others[i], ends[i]});
-  return merge_forest(keys, paths.extrema, paths.meetings, std::move(lasts));
-}
-
 /// The oldest of each component stays if no other one does.
 void keep_one_of_each(const MergeForest& forest, std::vector<bool>& stays) {
   std::vector<bool> has_one(forest.size(), false);
@@ -114,9 +96,14 @@ RemovedBranches removed_branches(ChangingOrder<Space>& order, Side side, const C
                                  const ChangingRoom<MemoryOf<Space>>& room) {
   using Memory = MemoryOf<Space>;
   const auto& graph = order.graph();
-  const SideKeys keys(order.keys_on_host(compared(graph, side)), side);
-  const auto paths = follow_paths(order.space(), keys, copy_in(graph[side], room));
-  const MergeForest forest = forest_of(order.space(), keys, paths, graph[opposite(side)].extrema);
+  auto of_side = copy_in(graph[side], room);
+  std::vector<Id> others = graph[opposite(side)].extrema;
+  const auto compared = ComparedVertices::numbered({&of_side.extrema, &others}, {&of_side.meetings},
+                                                   [&](const std::vector<Id>& some) { return order.keys_of(some); });
+  const auto paths = follow_paths(order.space(), side, compared, std::move(of_side));
+  MergeForest forest = merge_forest(order.space(), side, compared, paths, others);
+  const std::vector<std::uint64_t> keys_of_nodes = compared.keys_at(forest.vertices, side);
+  forest.vertices = compared.at(forest.vertices);  // from here on GALE's
   std::vector<bool> stays = staying(side, forest);
   keep_one_of_each(forest, stays);
   RemovedBranches removed;
@@ -128,8 +115,8 @@ RemovedBranches removed_branches(ChangingOrder<Space>& order, Side side, const C
   for (std::size_t place = 0; place < leaf.size(); ++place) {
     if (stays[place]) leaf[place] = no_id;
   }
-  find_vertices(order.space(), SideKeys(order.keys(), side), lifted_tree<Memory>(keys, forest.vertices, forest.parent),
-                leaf, number, paths.ends, room.vertices_before, removed.branches);
+  find_vertices(order.space(), SideKeys(order.keys(), side), lifted_tree<Memory>(keys_of_nodes, forest.parent), leaf,
+                number, paths.ends, room.vertices_before, removed.branches);
   return removed;
 }
 

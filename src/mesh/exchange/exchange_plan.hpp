@@ -119,7 +119,24 @@ class ExchangePlan {
   /// from[place], on the host.
   template <class Space, class T>
   void fill(const Space& space, const T* from, const EntriesByRank<T>& fetched, T* to) const {
-    copy_run(space, from + run_.place, to + run_.slot);
+    fill_run(space, from, to);
+    fill_others(space, from, fetched, to);
+  }
+
+  /// Fills the slots of run(), of this rank's own values on the host. Not collective.
+  template <class Space, class T>
+  void fill_run(const Space&, const T* from, T* to) const {
+    if constexpr (is_device<Space>) {
+      copy_to_device(to + run_.slot, from + run_.place, static_cast<std::size_t>(run_.count) * sizeof(T));
+    } else {
+      parallel_for("GALE::kept_run", HostExecutionSpace(), run_.count,
+                   [&](Offset i) { to[run_.slot + i] = from[run_.place + i]; });
+    }
+  }
+
+  /// Fills all slots but those of run(), as fill() does.
+  template <class Space, class T>
+  void fill_others(const Space& space, const T* from, const EntriesByRank<T>& fetched, T* to) const {
     if constexpr (is_device<Space>) {
       const auto kept =
           tabulated<T>("GALE::kept_values", kept_places_.extent(0), [&](Offset i) { return from[kept_places_(i)]; });
@@ -148,15 +165,6 @@ class ExchangePlan {
   }
 
  private:
-  template <class Space, class T>
-  void copy_run(const Space&, const T* from, T* to) const {
-    if constexpr (is_device<Space>) {
-      copy_to_device(to, from, static_cast<std::size_t>(run_.count) * sizeof(T));
-    } else {
-      parallel_for("GALE::kept_run", HostExecutionSpace(), run_.count, [&](Offset i) { to[i] = from[i]; });
-    }
-  }
-
   template <class Space, class T>
   static void scatter(const Space& space, const Array<Id, HostMemory>& slots, const Array<T, HostMemory>& values,
                       T* to) {
