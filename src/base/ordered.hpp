@@ -13,6 +13,7 @@ namespace gale {
 
 /// The first place from `begin` on, before `end`, that isn't before what is sought; `end` if all are.
 /// `is_before(place)` holds for some first ones, and for none after these.
+GALE_CALLS_ANY
 template <class Place, class IsBefore>
 KOKKOS_FORCEINLINE_FUNCTION Place bisect(Place begin, Place end, const IsBefore& is_before) {
   while (begin < end) {

@@ -266,8 +266,9 @@ class Attempt {
                                nullptr,
                                left_};
     pairs_begin_ = allocate<Array<Offset, Memory>>("GALE::edge_pairs_begin", mesh_.vertices() + Offset(1));
-    words_used_ =
-        exclusive_scan("GALE::count_edge_pairs", space, mesh_.vertices(), pairs_begin_, detail::CountGridWords{pair});
+    // A scan would count twice on a device.
+    parallel_for("GALE::count_edge_pairs", space, mesh_.vertices(), detail::CountGridWords{pair, pairs_begin_.data()});
+    words_used_ = exclusive_scan("GALE::edge_pairs_begin", space, mesh_.vertices(), pairs_begin_, pairs_begin_);
     words_ = allocate<Array<Id, Memory>>("GALE::edge_pairs", words_used_);
     pairs_begin_ = Kokkos::subview(pairs_begin_, std::make_pair(Offset(0), Offset(mesh_.vertices())));
     pair.words = words_.data();

@@ -41,11 +41,12 @@ struct PairGridStars {
   }
 };
 
-/// What the rows take that PairGridStars fills.
+/// Counts what the rows take that PairGridStars fills.
 struct CountGridWords {
   PairGridStars pair;
+  Offset* words;  ///< by vertex
 
-  KOKKOS_FUNCTION Offset operator()(Offset vertex) const { return pair.words_for(vertex); }
+  KOKKOS_FUNCTION void operator()(Offset vertex) const { words[vertex] = pair.words_for(vertex); }
 };
 
 /// Pairs the stars that PairGridStars has left.
