@@ -172,6 +172,7 @@ std::unique_ptr<Structure::Sweep> TaskParallelStructure::begin_sweep(RelationSet
 
 std::unique_ptr<Structure> make_task_parallel_structure(const Mesh& mesh, RelationSet relations) {
   detail::require_relations(relations);
+  require_relations(relations, mesh.dimension());
   return std::make_unique<TaskParallelStructure>(mesh, relations);
 }
 

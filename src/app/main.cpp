@@ -127,9 +127,21 @@ std::string without_command(const CLI::App& app, int argc, char** argv) {
   return "unknown command '" + first + "': " + commands_of(app);
 }
 
+/// Throws UsageError for an argument that is nothing, as that of a variable that isn't set: it would count as one that
+/// isn't there.
+void require_arguments(int argc, char** argv) {
+  for (int i = 2; i < argc; ++i) {
+    const std::string text = argv[i], before = argv[i - 1];
+    const bool is_option = text.rfind("--", 0) == 0 && text.find('=') == text.size() - 1;
+    if (is_option) throw UsageError(text.substr(0, text.size() - 1) + ": there is nothing after '='");
+    if (text.empty()) throw UsageError(before[0] == '-' ? before + ": '' is nothing" : "'' is no argument");
+  }
+}
+
 /// Parses the command line into the options of the command that it names. False if it only asked for help or the
 /// version, which are printed then. Throws UsageError.
 bool parse(CLI::App& app, int argc, char** argv) {
+  require_arguments(argc, argv);
   try {
     app.parse(argc, argv);
     return true;

@@ -51,16 +51,26 @@ std::size_t parse_size(const std::string& option, const std::string& text) {
   throw UsageError(option + ": '" + text + "' is no size of memory, such as 512MiB, 1.5GiB, 8G or 1000000 (bytes)");
 }
 
+/// A finite decimal number; nothing for what is none.
+std::optional<double> number_in(const std::string& text) {
+  if (text.empty() || text.find_first_not_of("0123456789.eE+-") != std::string::npos) return std::nullopt;
+  char* end = nullptr;
+  const double number = std::strtod(text.c_str(), &end);
+  if (*end != '\0' || !std::isfinite(number)) return std::nullopt;
+  return number;
+}
+
+/// "-0.5", "1e3".
+double parse_above(const std::string& text) {
+  if (const auto number = number_in(text)) return *number;
+  throw UsageError("--above: '" + text + "' is no finite number");
+}
+
 /// "0.5" or "20%", at least 0.
 outputs::Persistence parse_persistence(const std::string& text) {
-  outputs::Persistence persistence;
-  persistence.is_percent = !text.empty() && text.back() == '%';
-  const std::string number = persistence.is_percent ? text.substr(0, text.size() - 1) : text;
-  char* end = nullptr;
-  persistence.value = std::strtod(number.c_str(), &end);
-  const bool is_number =
-      !number.empty() && number.find_first_not_of("0123456789.eE+-") == std::string::npos && *end == '\0';
-  if (is_number && std::isfinite(persistence.value) && persistence.value >= 0) return persistence;
+  const bool is_percent = !text.empty() && text.back() == '%';
+  const auto number = number_in(is_percent ? text.substr(0, text.size() - 1) : text);
+  if (number && *number >= 0) return {*number, is_percent};
   throw UsageError("--persistence: '" + text +
                    "' is no difference of values of at least 0, such as 0.5, nor a part of their range, such as 20%");
 }
@@ -122,7 +132,11 @@ void InputOptions::add_to(CLI::App& command) {
       ->required()
       ->expected(1)
       ->type_name("TEXT");
-  command.add_option("--above", read.above, "Volumes: keep the voxels with values above this");
+  command
+      .add_option_function<std::string>(
+          "--above", [this](const std::string& text) { read.above = parse_above(text); },
+          "Volumes: keep the voxels with values above this")
+      ->type_name("FLOAT");
   CLI::Option* const array = command.add_option(
       "-a,--array", read.array,
       "The point array to analyse, NAME or NAME_K for its component K; of volumes, also what --above is about");
@@ -161,19 +175,29 @@ void InputOptions::add_times_to(CLI::App& command) {
 }
 
 InputOptions::Steps InputOptions::steps() const {
-  if (!times) return {false, {{0, inputs.front()}}};
-  const std::vector<io::Step> steps = io::steps_of(inputs, read);
+  Steps chosen{false, {{0, inputs.front()}}, {}};
   const io::Format* const format = io::format_of(inputs.front());
   const bool names_steps = format != nullptr && format->input == io::Input::series;
+  if (!times && !names_steps) return chosen;
+  const std::vector<io::Step> steps = io::steps_of(inputs, read);
+  if (!times) {
+    for (const io::Step& step : steps) chosen.not_chosen.push_back(step.file);
+    return chosen;
+  }
   if (!names_steps && steps.size() == 1) {
     if (times->text != "all") throw UsageError("--times: '" + inputs.front() + "' is no series");
-    return {false, {{0, inputs.front()}}};
+    return chosen;
   }
   const auto count = static_cast<std::int64_t>(steps.size());
   const auto at = [&](std::int64_t step) { return step < 0 ? step + count : step; };
   if (at(times->last) >= count)
     throw UsageError("--times " + times->text + ": there are " + std::to_string(count) + " steps, counted from 0");
-  return {true, {steps.begin() + at(times->first), steps.begin() + at(times->last) + 1}};
+  const auto begin = at(times->first), end = at(times->last) + 1;
+  chosen = {true, {steps.begin() + begin, steps.begin() + end}, {}};
+  for (std::int64_t step = 0; step < count; ++step) {
+    if (step < begin || step >= end) chosen.not_chosen.push_back(steps[step].file);
+  }
+  return chosen;
 }
 
 void CommonOptions::add_to(CLI::App& command) {

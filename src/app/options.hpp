@@ -52,10 +52,11 @@ struct InputOptions {
   struct Steps {
     bool are_series = false;  ///< whether the inputs are a series, of one step or more
     std::vector<io::Step> all;
+    std::vector<std::string> not_chosen;  ///< the files of the others
   };
 
-  /// The steps of a series that --times says, else the input. Throws gale::Error for a series that can't be read,
-  /// UsageError where it hasn't such a step.
+  /// The steps of a series that --times says, else the input, as it is. Throws gale::Error for a series that can't be
+  /// read, UsageError where it hasn't such a step.
   Steps steps() const;
 };
 

@@ -32,6 +32,21 @@ nlohmann::ordered_json spread_of(std::vector<std::int64_t> by_rank, double unit)
   return {{"least", value(0)}, {"median", value(by_rank.size() / 2)}, {"most", value(by_rank.size() - 1)}};
 }
 
+/// Does what detail::together does, but for UsageError: all ranks throw that then.
+template <class Action>
+void use_together(const Ranks& ranks, const Action& action) {
+  std::string wrong;
+  detail::together(ranks, [&] {
+    try {
+      action();
+    } catch (const UsageError& error) {
+      wrong = error.what();
+    }
+  });
+  const std::int64_t first = ranks.least(std::int64_t(wrong.empty() ? ranks.size() : ranks.rank()));
+  if (first < ranks.size()) throw UsageError(ranks.broadcast(wrong, static_cast<int>(first)));
+}
+
 }  // namespace
 
 Session::Session(const InputOptions& input, const CommonOptions& common, std::vector<std::string> files,
@@ -46,12 +61,13 @@ Session::Session(const InputOptions& input, const CommonOptions& common, std::ve
   report_.threads = host_threads();
   report_.wall.start = process_age();
   files.erase(std::remove(files.begin(), files.end(), ""), files.end());
-  detail::together(ranks_, [&] {
+  use_together(ranks_, [&] {
     InputOptions::Steps steps = input.steps();
     is_series_ = steps.are_series;
     numbers_files_ = is_series_ && outputs == Outputs::of_each_step;
     steps_ = std::move(steps.all);
     std::vector<std::string> all, mine, inputs = input.inputs;
+    inputs.insert(inputs.end(), steps.not_chosen.begin(), steps.not_chosen.end());
     const auto add = [&](const std::string& file, int writer) {
       all.push_back(file);
       if (writer == ranks_.rank()) mine.push_back(file);
@@ -134,6 +150,7 @@ io::PointArray Session::select_field(const io::Dataset& dataset) {
     throw Error("'" + input_.input + "' has no point array to analyse: --height x, y or z takes a coordinate");
   io::PointArray field = outputs::select_field(dataset, input_.read.array);
   if (step_ == 0) console_.say("field", field.name);
+  if (outputs::is_rounded(field)) note_rounded(field.name);
   return field;
 }
 
@@ -194,8 +211,12 @@ FieldOnMesh Session::read_part(const SegmentationOptions& segmentation, Keep kee
                              has_outputs_ && keep == Keep::cells, keep == Keep::owned_values && !has_outputs_};
   FieldOnMesh on = read_on_ranks(input_, segmentation.capacity.value_or(default_capacity), wanted, was_read);
   tell_size(on.mesh.all_vertices(), on.mesh.all_cells(), on.mesh.dimension());
-  report_.segments = ranks_.sum(on.mesh.owned_segments().size());
+  std::int64_t sums[] = {on.mesh.owned_segments().size(), outputs::is_rounded(on.field)};
+  ranks_.sum(sums, 2);
+  report_.segments = sums[0];
   if (step_ == 0) console_.say("field", on.field.name);
+  if (sums[1] > 0) note_rounded(on.field.name);
+  if (!on.note.empty()) note({on.note});
   part_ = on.mesh;
   return on;
 }
@@ -211,6 +232,9 @@ FieldOnMesh Session::read_field(const SegmentationOptions& segmentation, Keep ke
   const Stopwatch watch(report_.seconds.initialize);
   begin_step("ordering the vertices");
   const VertexOrder order = outputs::order_of(mesh, dataset, field);
+  if (const std::string contradiction = outputs::contradiction_in(dataset, field, mesh.vertices());
+      !contradiction.empty())
+    note({contradiction});
   return {std::move(dataset), mesh, std::move(field), order};
 }
 
@@ -242,6 +266,11 @@ SweepOptions Session::sweep(const std::string& title) const {
   sweep.threads = report_.threads;
   if (!Launch::are_several()) sweep.progress = console_.progress(title);
   return sweep;
+}
+
+void Session::note_rounded(const std::string& field) {
+  note({"'" + field +
+        "' has whole numbers beyond 2^53: they are ordered exactly, but differences are of rounded values"});
 }
 
 void Session::note(const std::vector<std::string>& notices) {

@@ -33,6 +33,7 @@ struct FieldOnMesh {
   VertexOrder order;
   bool has_ids = false;  ///< whether GlobalPointIds of the dataset are the points' in the input of all ranks
   outputs::ValuesOf values = outputs::ValuesOf::held_vertices;  ///< of the field
+  std::string note{};                                           ///< on the order; empty for none
 };
 
 /// What outputs take of a field on a mesh at the vertices that results are named in: where that is an excerpt of the
@@ -207,6 +208,9 @@ class Session {
 
   /// The field that --array names, or the first; says which. A copy: once a run.
   io::PointArray select_field(const io::Dataset& dataset);
+
+  /// Notes that values of a field are rounded.
+  void note_rounded(const std::string& field);
 
   /// Says and reports those that haven't been.
   void note(const std::vector<std::string>& notices);

@@ -136,15 +136,28 @@ void named(const std::string& path, const Use& use) {
   }
 }
 
+/// What a link names, and a link that this is; any other path itself.
+std::string end_of_links(const std::string& path) {
+  namespace fs = std::filesystem;
+  constexpr int most_links = 40;  // as Linux has it
+  std::error_code unknown;
+  fs::path at = path;
+  for (int links = 0; fs::is_symlink(at, unknown); ++links) {
+    if (links == most_links) throw Error(std::make_error_code(std::errc::too_many_symbolic_link_levels).message());
+    at = at.parent_path() / fs::read_symlink(at);
+  }
+  return at.string();
+}
+
 }  // namespace
 
 AtomicFile::AtomicFile(const std::string& path, Encoding encoding) : path_(path), target_(path), encoding_(encoding) {
   namespace fs = std::filesystem;
   std::error_code unknown;  // what can't be looked at can't be opened either, which says why
-  if (fs::is_symlink(target_, unknown)) target_ = fs::weakly_canonical(target_).string();
   const fs::file_status there = fs::status(target_, unknown);
   if (fs::is_directory(there)) throw Error("it is a directory");
   if (fs::exists(there) && !fs::is_regular_file(there)) throw Error("it is not a regular file");
+  target_ = end_of_links(target_);
   unnamed_ = make_unnamed(folder_of(target_));
   if (unnamed_ >= 0) {
     unnamed_path_ = path_of(unnamed_);

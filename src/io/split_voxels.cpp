@@ -54,13 +54,24 @@ Array<std::uint64_t, HostMemory> mark(const VoxelRows& rows, const Values& value
   return bits;
 }
 
+/// Whether a value is above a limit, exactly: whole numbers of 64 bits aren't doubles.
+template <class Value>
+bool is_above(Value value, double limit) {
+  if constexpr (std::is_integral_v<Value> && sizeof(Value) == 8) {
+    if (limit < static_cast<double>(std::numeric_limits<Value>::min())) return true;
+    if (limit >= std::ldexp(1.0, std::numeric_limits<Value>::digits)) return false;
+    return value > static_cast<Value>(std::floor(limit));
+  } else {
+    return static_cast<double>(value) > limit;
+  }
+}
+
 /// The cubes of voxels whose values are above, or finite.
 Grid grid_of(const VoxelRows& rows, const PointArray& scalars, const std::optional<double>& above) {
   const std::array<Id, 3> points = {rows.nx, rows.ny, rows.nz};
   const auto decide = [&](const auto& values) {
     using Value = typename std::decay_t<decltype(values)>::value_type;
-    if (above)
-      return Grid(points, mark(rows, values, [limit = *above](Value x) { return static_cast<double>(x) > limit; }));
+    if (above) return Grid(points, mark(rows, values, [limit = *above](Value x) { return is_above(x, limit); }));
     if constexpr (std::is_floating_point_v<Value>) {
       return Grid(points, mark(rows, values, [](Value x) { return std::isfinite(x); }));
     } else {

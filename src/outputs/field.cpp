@@ -1,5 +1,9 @@
 #include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <string>
 #include <type_traits>
+#include <vector>
 
 #include <gale/base/error.hpp>
 #include <gale/base/parallel.hpp>
@@ -53,22 +57,24 @@ io::PointArray first_field(const io::Dataset& dataset) {
   throw Error("no point array to analyse: " + names_of_arrays(dataset));
 }
 
-void check_permutation(const io::PointArray& order, std::size_t count) {
-  std::vector<bool> seen(count);
+/// The vertices by their places; throws gale::Error for an array that is no permutation.
+std::vector<Id> vertices_in_order(const io::PointArray& order, std::size_t count) {
+  std::vector<Id> vertices(count, no_id);
   std::visit(
       [&](const auto& values) {
         for (std::size_t v = 0; v < values.size(); ++v) {
           const auto value = values[v];
           const bool inside = value >= 0 && static_cast<double>(value) < static_cast<double>(count);
           const auto place = inside ? static_cast<std::size_t>(value) : count;
-          if (place == count || static_cast<decltype(value)>(place) != value || seen[place]) {
+          if (place == count || static_cast<decltype(value)>(place) != value || vertices[place] != no_id) {
             throw Error("array '" + order.name + "' is no permutation of 0 to " + std::to_string(count - 1) +
                         ": vertex " + std::to_string(v) + " has " + std::to_string(value));
           }
-          seen[place] = true;
+          vertices[place] = static_cast<Id>(v);
         }
       },
       order.values);
+  return vertices;
 }
 
 /// Whether the input cells of a mesh are these: corners_of(cell) are the vertices of each, as many as it has corners.
@@ -97,6 +103,11 @@ bool has_cells(const Mesh& mesh, const io::Dataset& dataset, const Id* rows) {
 }
 
 }  // namespace
+
+std::string contradiction(const std::string& field, GlobalId lower, GlobalId before) {
+  return "'" + field + order_suffix + "' orders the vertices, though it contradicts '" + field + "': vertex " +
+         std::to_string(lower) + " comes after vertex " + std::to_string(before) + ", which has a higher value";
+}
 
 bool may_be_field(const std::string& name, int components, bool is_whole) {
   const bool is_segments = is_whole && (name == segments_name || name == ttk_segments_name);
@@ -132,6 +143,21 @@ void add_height(io::Dataset& dataset, int axis) {
   arrays.insert(arrays.begin(), {height_name, 1, std::visit(coordinates, dataset.points)});
 }
 
+bool is_rounded(const io::PointArray& field) {
+  const auto has_any_beyond = [](const auto& values) {
+    using Value = typename std::decay_t<decltype(values)>::value_type;
+    if constexpr (std::is_integral_v<Value> && sizeof(Value) == 8) {
+      constexpr auto most = static_cast<Value>(std::uint64_t(1) << std::numeric_limits<double>::digits);
+      return std::any_of(values.begin(), values.end(), [](Value value) {
+        return value > most || (std::is_signed_v<Value> && value < Value(0) - most);
+      });
+    } else {
+      return false;
+    }
+  };
+  return std::visit(has_any_beyond, field.values);
+}
+
 const io::PointArray& order_array(const io::Dataset& dataset, const io::PointArray& field) {
   const auto* const order = find_array(dataset, field.name + order_suffix);
   return order == nullptr || order->components != 1 ? field : *order;
@@ -139,8 +165,19 @@ const io::PointArray& order_array(const io::Dataset& dataset, const io::PointArr
 
 const io::PointArray& order_values(const io::Dataset& dataset, const io::PointArray& field, std::size_t vertices) {
   const io::PointArray& order = order_array(dataset, field);
-  if (&order != &field) check_permutation(order, vertices);
+  if (&order != &field) vertices_in_order(order, vertices);
   return order;
+}
+
+std::string contradiction_in(const io::Dataset& dataset, const io::PointArray& field, std::size_t vertices) {
+  const io::PointArray& order = order_array(dataset, field);
+  if (&order == &field) return {};
+  const std::vector<Id> sorted = vertices_in_order(order, vertices);
+  const Offset count = static_cast<Offset>(vertices);
+  const Offset bad = reduce_min("GALE::descents", HostExecutionSpace(), count, count, [&](Offset place) {
+    return place > 0 && value_at(field, sorted[place]) < value_at(field, sorted[place - 1]) ? place : count;
+  });
+  return bad == count ? "" : contradiction(field.name, sorted[bad], sorted[bad - 1]);
 }
 
 Mesh mesh_of(const io::Dataset& dataset, const Segmentation& segmentation) {

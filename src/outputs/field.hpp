@@ -47,17 +47,26 @@ inline double value_at(const io::PointArray& field, Id vertex) {
   return std::visit([vertex](const auto& values) { return static_cast<double>(values[vertex]); }, field.values);
 }
 
+/// Whether a field has whole numbers beyond 2^53, which value_at may round.
+GALE_EXPORT bool is_rounded(const io::PointArray& field);
+
 /// What orders vertices: the field's values; or, where the dataset has an array NAME_Order of one component beside the
 /// field NAME, that one. Refers to either.
 GALE_EXPORT const io::PointArray& order_array(const io::Dataset& dataset, const io::PointArray& field);
 
-/// What orders so many vertices: their order_array. Throws as order_of does.
+/// What orders so many vertices: their order_array. Throws as order_of does but for NaN.
 GALE_EXPORT const io::PointArray& order_values(const io::Dataset& dataset, const io::PointArray& field,
                                                std::size_t vertices);
 
+/// A note for a field NAME whose NAME_Order has a vertex right after one with a higher value.
+GALE_EXPORT std::string contradiction(const std::string& field, GlobalId lower, GlobalId before);
+
+/// The note for the first such vertex of a dataset; empty if there is none. Throws as order_values does.
+GALE_EXPORT std::string contradiction_in(const io::Dataset& dataset, const io::PointArray& field, std::size_t vertices);
+
 /// The order of the field's values; or, where the dataset has an array NAME_Order of one component beside the field
-/// NAME, that order. Throws gale::Error, with array and vertex, if NAME_Order isn't a permutation of 0 to vertices-1,
-/// and as `VertexOrder` does.
+/// NAME, that order, whatever the values. Throws gale::Error, with array and vertex, if NAME_Order isn't a permutation
+/// of 0 to vertices-1, and as `VertexOrder` does.
 GALE_EXPORT VertexOrder order_of(const Mesh& mesh, const io::Dataset& dataset, const io::PointArray& field);
 
 }  // namespace gale::outputs

@@ -137,6 +137,8 @@ class Meshes(gale.CommandTest):
         """By height alone the ends of the two tetrahedra are minimum and maximum; by its order, both are minima."""
         name = self.mesh(arrays={**HEIGHT, "height_Order": ("int", [0, 2, 3, 4, 1])})
         self.assertEqual(self.counts(name)[0], 2)
+        self.assertIn("'height_Order' orders the vertices, though it contradicts 'height': vertex 1 comes after vertex 4",
+                      self.succeed("critical-points", name))
         self.refuse(1, "critical-points", self.mesh(arrays={**HEIGHT, "height_Order": ("int", [0, 1, 2, 2, 4])}),
                   naming="height_Order")
 

@@ -124,10 +124,10 @@ class OnRanks(ranks.RanksTest):
         self.write("parts.pvtu", pvtu(["part.vtu"]))
         (self.folder / "all_1.vtp").symlink_to("part.vtu")
         before = {name: (self.folder / name).read_bytes() for name in self.names()}
-        for options, naming in ((["-o", "all.pvtp"], "'part.vtu' is to be written, as 'all_1.vtp'"),
-                                (["--report", "parts.pvtu"], "'parts.pvtu' is named for two files")):
+        for code, options, naming in ((1, ["-o", "all.pvtp"], "'part.vtu' is to be written, as 'all_1.vtp'"),
+                                      (2, ["--report", "parts.pvtu"], "'parts.pvtu' is named for two files")):
             with self.subTest(options=options):
-                self.expect_one_line(self.launch(2, "critical-points", "parts.pvtu", *options), 1, naming)
+                self.expect_one_line(self.launch(2, "critical-points", "parts.pvtu", *options), code, naming)
                 self.assertEqual({name: (self.folder / name).read_bytes() for name in self.names()}, before)
 
     def test_a_summary_of_which_a_part_is_printed_leaves_no_files(self):

@@ -55,6 +55,19 @@ class PiecesOnRanks(ranks.ComplexTest):
                 self.assertFalse([notice for notice in report["notices"] if "coordinates" in notice])
                 self.assertEqual(self.points(self.pieces("all.pvtp"), ["GlobalPointIds"]), expected)
 
+    def test_arrays_that_some_piece_lacks_are_noted(self):
+        note = "left out the point array 'more': not all pieces have it"
+        for lacking in range(4):
+            for others in (0, 3):  # all of the others lack it, or have it
+                with self.subTest(lacking=lacking, others=others):
+                    for k in range(4):
+                        has_more = (k == lacking) == (others == 0)
+                        arrays = xml_array("Float32", "height", HEIGHTS[:4]) + (xml_array("Float32", "more", HEIGHTS[:4]) if has_more else "")
+                        self.write(f"part{k}.vtu", vtu([(x + k, y, z) for x, y, z in POINTS[:4]], CELLS[:1], arrays))
+                    self.write("parts.pvtu", pvtu([f"part{k}.vtu" for k in range(4)]))
+                    for report in (self.report("critical-points", "parts.pvtu"), *(self.report_of(count, "critical-points", "parts.pvtu") for count in (2, 4))):
+                        self.assertEqual([notice for notice in report["notices"] if "left out" in notice], [note])
+
     def test_ties_go_by_ids_on_any_number_of_ranks_and_pieces(self):
         self.succeed("generate", "grid:7", "-o", "whole.vtu")
         whole = gale.XmlFile(self.folder / "whole.vtu")
@@ -65,6 +78,10 @@ class PiecesOnRanks(ranks.ComplexTest):
                     self.write(f"part{k}.vtu", text)
                 self.write("parts.pvtu", pvtu([f"part{k}.vtu" for k in range(pieces)], "ids", "cell ids"))
                 self.expect_complex_of_one_rank(count, "parts.pvtu", "--no-saddle-connectors")
+                notes = [[note for note in report["notices"] if "contradicts" in note] for report in
+                         (self.report("critical-points", "parts.pvtu"), self.report_of(count, "critical-points", "parts.pvtu"))]
+                self.assertEqual(notes[0], notes[1])
+                self.assertEqual(len(notes[0]), int(with_order))
 
     def test_pieces_of_other_cells_fit(self):
         """Hexahedra, some of them two wedges, with ids and without, and dealt out by the first rank."""

@@ -117,6 +117,15 @@ class Series(gale.CommandTest):
         self.succeed("generate", "grid:4", "-o", "g_0000.vtu")
         self.refuse(2, "simplify-field", "g_0000.vtu", "f0.vtu", "-o", "g.vtu", naming="g_0000.vtu")
 
+    def test_keep_steps_that_are_not_chosen(self):
+        self.write("f.pvd", pvd((0, "f0.vtu"), (1, "f1.vtu"), (2, "f2.vtu")))
+        before = (self.folder / "f0.vtu").read_bytes()
+        self.refuse(2, "simplify-field", "f.pvd", "--times", "last", "--report", "f0.vtu", naming="f0.vtu")
+        self.refuse(2, "generate", "f.pvd", "-o", "f1.vtu", naming="f1.vtu")
+        self.succeed("generate", "grid:4", "-o", "g_0000.vtu")
+        self.refuse(2, "simplify-field", "f0.vtu", "g_0000.vtu", "--times", "0:0", "-o", "g.vtu", naming="g_0000.vtu")
+        self.assertEqual((self.folder / "f0.vtu").read_bytes(), before)
+
     def test_refuses_what_is_none(self):
         self.write("f.pvd", pvd((0, "f0.vtu")))
         self.refuse(1, "critical-points", "f.pvd", "f0.vtu", naming="f.pvd")

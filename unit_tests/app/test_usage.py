@@ -95,7 +95,8 @@ class Usage(gale.CommandTest):
 
     def test_values_that_options_do_not_take(self):
         for option, value in (("--structure", "fast"), ("--capacity", "0"), ("--capacity", "many"), ("--threads", "0"), ("--threads", "1025"),
-                              ("--threads", "-1"), ("--above", "zero"), ("--host-memory", "8 apples"),
+                              ("--threads", "-1"), ("--above", "zero"), ("--above", "nan"), ("--above", "inf"), ("--above", "1e400"),
+                              ("--above", "0x1"), ("--above", " 1"), ("--host-memory", "8 apples"),
                               ("--host-memory", "-1"), ("--blocks-per-request", "0"), ("--threads-per-block", "-32"),
                               ("--threads-per-segment", "0"), ("--threads-per-segment", "1025"),
                               ("--blocks-per-request", "1048577"), ("--host-memory", "0"), ("--host-memory", "0.1"),
@@ -103,6 +104,15 @@ class Usage(gale.CommandTest):
                               ("--host-memory", "9" * 400), ("--device-memory", "0x10"), ("--device-memory", "1Gi")):
             with self.subTest(option=option, value=value):
                 self.refuse(2, "critical-points", "grid:4", option, value, naming=option)
+
+    def test_empty_values(self):
+        for option in ("--output", "-o", "--report", "--array", "--segments", "--above", "--render"):
+            with self.subTest(option=option):
+                self.refuse(2, "critical-points", "grid:4", option, "", naming=f"{option}: '' is nothing")
+        self.refuse(2, "generate", "grid:4", "-o", "", naming="-o: '' is nothing")
+        self.refuse(2, "info", "grid:4", "--report=", "--quiet", naming="--report: there is nothing after '='")
+        self.refuse(2, "info", "", "grid:4", naming="'' is no argument")
+        self.assertEqual(self.names(), [])
 
     def test_sizes_of_memory(self):
         for size in ("512MiB", "1.5GiB", "8G", "1000000", "64 mb", "2k"):

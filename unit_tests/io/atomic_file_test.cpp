@@ -54,6 +54,16 @@ TEST(AtomicFile, FollowsALink) {
   EXPECT_EQ(content_of(folder / "target"), "new");
 }
 
+TEST(AtomicFile, FollowsALinkToAFileThatIsNotThere) {
+  const Folder folder;
+  std::filesystem::create_symlink("target", folder / "link");
+  AtomicFile file(folder / "link");
+  std::ofstream(file.temporary()) << "new";
+  file.commit();
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
+  EXPECT_EQ(content_of(folder / "target"), "new");
+}
+
 TEST(AtomicFile, TakesANameInTheWorkingDirectory) {
   const Folder folder;
   const std::filesystem::path before = std::filesystem::current_path();
@@ -74,6 +84,8 @@ TEST(AtomicFile, RefusesWhatIsNoFile) {
   EXPECT_EQ(error_of([&] { AtomicFile(folder / "none/result"); }), "No such file or directory");
   EXPECT_EQ(error_of([&] { AtomicFile(folder / "file/result"); }), "Not a directory");
   EXPECT_EQ(folder.names(), Names{"file"});
+  std::filesystem::create_symlink("loop", folder / "loop");
+  EXPECT_EQ(error_of([&] { AtomicFile(folder / "loop"); }), "Too many levels of symbolic links");
 }
 
 }  // namespace

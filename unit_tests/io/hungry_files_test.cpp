@@ -137,7 +137,7 @@ TEST(JoinedPieces, ArraysOfOnePieceAloneTakeAsLongAsTheyAre) {
       for (int k = 0; k < count; ++k) parts.arrays.push_back({name + std::to_string(k), 1, std::vector<float>(4)});
       joined.add(std::move(parts));
     }
-    EXPECT_EQ(joined.take().notices.size(), static_cast<std::size_t>(count));
+    EXPECT_EQ(joined.take().notices.size(), 2 * static_cast<std::size_t>(count));
   });
 }
 

@@ -3,6 +3,7 @@
 #ifdef GALE_ENABLE_VTK
 
 #include <gale/io/bytes/compression.hpp>
+#include <gale/io/read.hpp>
 
 #include "io/io_fixtures.hpp"
 
@@ -84,6 +85,30 @@ TEST_F(Inflated, TellsDamageAsTheStreamDoes) {
       EXPECT_EQ(outcome(whole.substr(0, k), text.size()), outcome(whole.substr(0, k), 0)) << "its first " << k;
     }
   }
+}
+
+/// Lines come before what is compressed, bytes are of what that stands for.
+TEST_F(Inflated, IsWhereVolumesSkipBytes) {
+  const auto volume = [&](const std::string& fields, const std::string& data) {
+    return folder.put("a.nrrd",
+                      "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 2 2 2\nencoding: gzip\n" + fields + "\n" + data);
+  };
+  const std::vector<std::uint8_t> expected = {'a', 'b', 'c', 'd', 'e', 'f', 'g', 'h'};
+  const std::string member = gzip_member("headabcdefgh");
+  EXPECT_EQ(test::values_of<std::uint8_t>(read(volume("byte skip: 4\n", member)).arrays[0]), expected);
+  EXPECT_EQ(test::values_of<std::uint8_t>(read(volume("byte skip: 4\n", gzip_member("headabcdefgh more"))).arrays[0]),
+            expected);
+  EXPECT_EQ(test::values_of<std::uint8_t>(read(volume("line skip: 1\nbyte skip: 4\n", "a line\n" + member)).arrays[0]),
+            expected);
+  const auto error = [&](const std::string& skipped) {
+    const std::string path = volume("byte skip: " + skipped + "\n", member);
+    return test::error_of([&] { read(path); });
+  };
+  EXPECT_NE(error("5").find("7 of 8"), std::string::npos) << error("5");
+  for (const std::string skipped : {"13", "9223372036854775807"})
+    EXPECT_NE(error(skipped).find("what comes before its values ends after 12 of "), std::string::npos)
+        << error(skipped);
+  EXPECT_NE(error("-1").find("its byte skip is -1"), std::string::npos) << error("-1");
 }
 
 }  // namespace

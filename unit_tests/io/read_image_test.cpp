@@ -207,6 +207,32 @@ TEST_F(ReadImage, Nrrd) {
   EXPECT_EQ(values_of<float>(mesh.arrays[0]), voxels);
 }
 
+TEST_F(ReadImage, NrrdSkipsLinesAndBytesOfEachFile) {
+  const std::vector<std::uint8_t> voxels = {1, 2, 3, 4, 5, 6, 7, 8};
+  const std::string heads[2] = {"head\n", "another\n"};
+  for (int k = 0; k < 2; ++k)
+    folder.put("t" + std::to_string(k) + ".raw", heads[k] + "ab" + bytes_of(voxels).substr(4 * k, 4));
+  const auto content = [](const std::string& fields, const std::string& encoding = "raw") {
+    return "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 2 2 2\nencoding: " + encoding + "\n" + fields;
+  };
+  const auto error = [&](const std::string& fields, const std::string& encoding = "raw") {
+    const std::string path = folder.put("wrong.nrrd", content(fields, encoding));
+    return error_of([&] { read(path); });
+  };
+  for (const std::string files : {"LIST\nt0.raw\nt1.raw\n", "t%d.raw 0 1 1\n"}) {
+    for (const std::string skips :
+         {"line skip: 1\nbyte skip: 2\n", "byte skip: -1\n", "line skip: 1\nbyte skip: -1\n"}) {
+      const Dataset mesh = read(folder.put("a.nrrd", content(skips + "data file: " + files)));
+      EXPECT_EQ(values_of<std::uint8_t>(mesh.arrays[0]), voxels) << skips << files;
+    }
+    EXPECT_NE(error("line skip: 3\ndata file: " + files).find("ends before the 3 lines to skip"), std::string::npos);
+    EXPECT_NE(error("line skip: -3\ndata file: " + files).find("it skips -3 lines"), std::string::npos);
+    EXPECT_NE(error("byte skip: -2\ndata file: " + files).find("it skips -2 bytes"), std::string::npos);
+    EXPECT_NE(error("byte skip: 99\ndata file: " + files).find("not 4 from byte 99 on"), std::string::npos);
+  }
+  EXPECT_NE(error("byte skip: -1\n\n1 2 3 4 5 6 7 8", "text").find("its byte skip is -1"), std::string::npos);
+}
+
 TEST_F(ReadImage, RefusesRowsOfVoxelsAndThresholdsThatNothingPasses) {
   Nifti row;
   row.dim = {2, 12, 1, 1, 1, 1, 1, 1};

@@ -452,6 +452,28 @@ TEST_F(ReadSurface, ObjThatIsWrong) {
   refuse("i.obj", points + "f 1 2 3000000000", "is 2999999999");
 }
 
+/// UTF-8's byte-order mark.
+const std::string mark = "\xef\xbb\xbf";
+
+TEST_F(ReadSurface, TextsBehindAByteOrderMark) {
+  const std::vector<double> points = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  const std::string three = "0 0 0\n1 0 0\n0 1 0\n";
+  for (const auto& [name, content] : std::vector<std::pair<std::string, std::string>>{
+           {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"},
+           {"a.off", "OFF\n3 1 0\n" + three + "3 0 1 2\n"},
+           {"a.stl",
+            "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"}}) {
+    const Dataset mesh = read_as(name, mark + content);
+    EXPECT_EQ(points_of(mesh), points) << name;
+    EXPECT_EQ(triangles_of(mesh), (Ids{0, 1, 2})) << name;
+    EXPECT_TRUE(mesh.notices.empty()) << name;
+  }
+  refuse("a.ply", mark + ply_of(four_vertices, vertex_values), "its first line is not 'ply'");
+  refuse("a.vtk", mark + legacy_of("POLYDATA\n"), "its first line is not '# vtk DataFile Version ...'");
+  refuse("a.nrrd", mark + "NRRD0004\n", "its first line is not 'NRRD...'");
+  refuse("a.mha", mark + "NDims = 3\n", "its line '???NDims = 3' is not 'KEY = VALUE'");
+}
+
 TEST_F(ReadSurface, Off) {
   const Dataset mesh =
       read_as("a.off", "OFF # by hand\n\n4 2 0\n0 0 0\n# between\n1 0 0\n1 1 0.1\n0 1 0\n4 0 1 2 3\n3 3 2 1\n");

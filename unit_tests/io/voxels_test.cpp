@@ -86,6 +86,22 @@ TEST(SplitVoxels, AboveMeansGreater) {
   EXPECT_EQ(split_voxels(image, 3).tetrahedra.extent(0), 6u);
 }
 
+TEST(SplitVoxels, WholeNumbersOf64BitsAreComparedExactly) {
+  constexpr std::int64_t most = std::int64_t(1) << 53;
+  const auto has_any = [](PointArray::Values values, double above) {
+    Image image = counting_image(2, 2, 2);
+    image.arrays = {{"value", 1, std::move(values)}};
+    return error_of([&] { split_voxels(image, above); }) == "no error";
+  };
+  EXPECT_TRUE(has_any(std::vector<std::int64_t>(8, most + 1), 9007199254740992.));
+  EXPECT_FALSE(has_any(std::vector<std::int64_t>(8, most), 9007199254740992.));
+  EXPECT_TRUE(has_any(std::vector<std::int64_t>(8, -most + 1), -9007199254740992.));
+  EXPECT_TRUE(has_any(std::vector<std::uint64_t>(8, 0), -0.5));
+  EXPECT_TRUE(has_any(std::vector<std::uint64_t>(8, ~std::uint64_t(0)), 18446744073709549568.));
+  EXPECT_FALSE(has_any(std::vector<std::uint64_t>(8, ~std::uint64_t(0)), 18446744073709551616.));
+  EXPECT_FALSE(has_any(std::vector<std::int64_t>(8, std::numeric_limits<std::int64_t>::max()), 1e300));
+}
+
 TEST(SplitVoxels, NanIsNeverAbove) {
   Image image = counting_image(3, 2, 2);
   value_of(image)[0] = std::numeric_limits<float>::quiet_NaN();

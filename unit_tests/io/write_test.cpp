@@ -126,6 +126,36 @@ TEST_F(WriteMesh, RefusesNamesThatHdf5HasNot) {
   EXPECT_EQ(folder.names(), Names{});
 }
 
+TEST_F(WriteMesh, RefusesNamesThatLegacyVtkHasNot) {
+  Dataset mesh = make_grid(2);
+  const std::string path = folder / "mesh.vtk";
+  const auto error_with = [&](const std::string& name) {
+    mesh.arrays.back().name = name;
+    return error_of([&] { write_mesh(path, mesh); });
+  };
+  EXPECT_EQ(error_with(std::string(256, 'x')), "cannot write '" + path + "': the array '" + std::string(200, 'x') +
+                                                   "...' has a name of 256 bytes, and legacy VTK has 255 at most");
+  EXPECT_EQ(error_with(std::string(86, '%')), "cannot write '" + path + "': the array '" + std::string(86, '%') +
+                                                  "' has a name of 258 bytes, and legacy VTK has 255 at most");
+  EXPECT_EQ(folder.names(), Names{});
+  EXPECT_EQ(error_with(std::string(255, 'x')), "no error");
+}
+
+/// HDF5 2.0 reads no chunks whose shape is in more bytes than the greatest of its numbers takes.
+TEST_F(WriteAndRead, Hdf5ChunksHaveTheirShapeInFewBytes) {
+  const auto layout = [](const std::vector<unsigned>& bytes) { return std::string(bytes.begin(), bytes.end()); };
+  const auto expect = [&](int n, const std::string& of_points, const std::string& of_field) {
+    write_mesh(folder / "mesh.vtkhdf", make_grid(n));
+    const std::string content = content_of(folder / "mesh.vtkhdf");
+    EXPECT_NE(content.find(of_points), std::string::npos) << n;
+    EXPECT_NE(content.find(of_field), std::string::npos) << n;
+  };
+  // Version 4, chunked, no flags, how many numbers, bytes of each, the numbers, of which the size of a value comes
+  // last.
+  expect(12, layout({4, 2, 0, 3, 2, 0xc0, 6, 3, 0, 4, 0, 3}), layout({4, 2, 0, 2, 2, 0xc0, 6, 4, 0, 3}));
+  expect(41, layout({4, 2, 0, 3, 2, 0x55, 0x55, 3, 0, 4, 0, 3}), layout({4, 2, 0, 2, 3, 0, 0, 1, 4, 0, 0, 3}));
+}
+
 TEST_F(WriteMesh, RefusesPlacesWhereNoFileCanBe) {
   const std::string path = folder / "none/mesh.vtu";
   EXPECT_EQ(error_of([&] { write_mesh(path, make_grid(2)); }),

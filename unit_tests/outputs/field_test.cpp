@@ -119,6 +119,28 @@ TEST(OrderOf, a_field_is_that_of_the_array_beside_it_if_there_is_one) {
       << "of two components: no order";
 }
 
+TEST(OrderOf, an_order_may_contradict_the_values) {
+  const io::PointArray f{"f", 1, std::vector<float>{0, 1, 1, 2}};
+  const auto note = [&](std::vector<int> order) { return contradiction_in(with({f, {"f_Order", 1, order}}), f, 4); };
+  EXPECT_EQ(note({0, 2, 1, 3}), "");
+  EXPECT_EQ(contradiction_in(with({f}), f, 4), "");
+  EXPECT_EQ(ascending({f, {"f_Order", 1, std::vector<int>{3, 0, 2, 1}}}), (std::vector<Id>{1, 3, 2, 0}));
+  EXPECT_EQ(
+      note({3, 0, 2, 1}),
+      "'f_Order' orders the vertices, though it contradicts 'f': vertex 2 comes after vertex 3, which has a higher "
+      "value");
+}
+
+TEST(IsRounded, a_field_of_whole_numbers_that_are_no_doubles) {
+  const std::int64_t most = std::int64_t(1) << 53;
+  EXPECT_FALSE(is_rounded({"f", 1, std::vector<std::int64_t>{most, -most}}));
+  EXPECT_TRUE(is_rounded({"f", 1, std::vector<std::int64_t>{0, most + 1}}));
+  EXPECT_TRUE(is_rounded({"f", 1, std::vector<std::int64_t>{0, -most - 1}}));
+  EXPECT_TRUE(is_rounded({"f", 1, std::vector<std::uint64_t>{~std::uint64_t(0)}}));
+  EXPECT_FALSE(is_rounded({"f", 1, std::vector<double>{1e300}}));
+  EXPECT_FALSE(is_rounded({"f", 1, std::vector<int>{1}}));
+}
+
 TEST(OrderOf, an_order_must_be_a_permutation) {
   const io::PointArray f{"f", 1, std::vector<float>{0, 0, 0, 0}};
   const auto refused = [&](io::PointArray::Values values) {

@@ -40,6 +40,13 @@ TEST(MakeStructure, wants_a_relation) {
             "a structure needs at least one relation to be preconditioned for");
 }
 
+TEST(MakeStructure, wants_relations_that_the_mesh_has) {
+  const Mesh plane(Grid({3, 3, 1}), 4);
+  const auto message = message_of([&] { make_structure(plane, Relation::VT); });
+  EXPECT_EQ(message.substr(0, message.find(':')), "a mesh of triangles has no relation VT");
+  EXPECT_EQ(message_of([&] { baselines::make_task_parallel_structure(plane, Relation::VT); }), message);
+}
+
 TEST(MakeStructure, has_the_host_compute_where_the_device_is_full) {
   if (!have_device) GTEST_SKIP() << "there is no device";
   const InputMesh& input = mesh_named("holed_grid_9");

@@ -43,7 +43,7 @@ struct ComparedVertices {
     return compared;
   }
 
-  /// Those at some places.
+  /// The vertices at some places.
   std::vector<Id> at(const std::vector<Id>& places) const {
     std::vector<Id> those(places.size());
     parallel_for("GALE::compared_at", HostExecutionSpace(), those.size(),

@@ -72,7 +72,7 @@ class TreeMaker {
     choose_nodes();
   }
 
-  /// Those of a mesh whose vertices are the graph's.
+  /// Makes all trees of a mesh whose vertices are the graph's.
   std::vector<MergeTree> make(const Mesh& mesh, const ThresholdOfTree* threshold) const {
     std::vector<ArcsOfNodes> claims;
     std::vector<MergeTree> made = make_nodes(threshold, claims);

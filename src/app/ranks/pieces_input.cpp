@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <sstream>
 
 #include <gale/app/ranks/shared_input.hpp>
 #include <gale/app/session.hpp>
@@ -129,12 +130,21 @@ void keep_common(const Ranks& ranks, io::Dataset& mesh, Offset points) {
       common = std::move(theirs);
       continue;
     }
-    for (auto array = common.begin(); array != common.end();) {
-      const bool is_there = std::any_of(theirs.begin(), theirs.end(), [&](const io::PointArray& other) {
-        return other.name == array->name && other.components == array->components &&
-               other.values.index() == array->values.index();
+    const auto is_in = [](const std::vector<io::PointArray>& arrays, const io::PointArray& array) {
+      return std::any_of(arrays.begin(), arrays.end(), [&](const io::PointArray& other) {
+        return other.name == array.name && other.components == array.components &&
+               other.values.index() == array.values.index();
       });
-      if (!is_there) mesh.notices.push_back("left out the point array '" + array->name + "': not all pieces have it");
+    };
+    const auto note = [&](const io::PointArray& array) {
+      mesh.notices.push_back("left out the point array '" + array.name + "': not all pieces have it");
+    };
+    for (const io::PointArray& array : theirs) {
+      if (!is_in(common, array)) note(array);
+    }
+    for (auto array = common.begin(); array != common.end();) {
+      const bool is_there = is_in(theirs, *array);
+      if (!is_there) note(*array);
       array = is_there ? array + 1 : common.erase(array);
     }
   }
@@ -142,6 +152,20 @@ void keep_common(const Ranks& ranks, io::Dataset& mesh, Offset points) {
     for (io::PointArray& array : common) array = *outputs::detail::find_array(mesh, array.name);
   }
   mesh.arrays = std::move(common);
+}
+
+/// Adds what other ranks note of their pieces, once each. Collective.
+void share_notices(const Ranks& ranks, std::vector<std::string>& notices) {
+  std::string own;
+  for (const std::string& notice : notices) own += notice + '\n';
+  std::vector<std::string> all;
+  for (int rank = 0; rank < ranks.size(); ++rank) {
+    std::istringstream lines(ranks.broadcast(own, rank));
+    for (std::string notice; std::getline(lines, notice);) {
+      if (std::find(all.begin(), all.end(), notice) == all.end()) all.push_back(notice);
+    }
+  }
+  notices = std::move(all);
 }
 
 /// Adds a coordinate in the type that points of all ranks have.
@@ -232,6 +256,7 @@ SharedInput read_pieces(const Ranks& ranks, const InputOptions& input, const io:
   if (!pieces.cell_ids.empty()) cell_ids = places_of(ranks, ids_of_simplices(some), true);
   if (input.height) detail::together(ranks, [&] { add_height(mesh, *input.height, shared.is_in_float); });
   keep_common(ranks, mesh, count);
+  share_notices(ranks, mesh.notices);
   detail::together(ranks, [&] {
     const auto by_ids = [&](const auto& all) -> CellRows<GlobalId> {
       return detail::tabulated_rows<GlobalId, std::decay_t<decltype(all)>::static_extent(1)>(
@@ -254,29 +279,6 @@ SharedInput read_pieces(const Ranks& ranks, const InputOptions& input, const io:
   shared.notices = std::move(mesh.notices);
   shared.is_dealt_out = static_cast<int>(pieces.sources.size()) < ranks.size();
   return shared;
-}
-
-void require_permutation(const Mesh& mesh, const io::PointArray& order) {
-  const Id* const input = mesh.vertex_input().data();
-  const auto count = static_cast<double>(mesh.all_vertices());
-  Array<detail::SimplexKey, HostMemory> keys;
-  const auto refuse = [&](GlobalId vertex, double value) {
-    throw Error("array '" + order.name + "' is no permutation of 0 to " + std::to_string(mesh.all_vertices() - 1) +
-                ": vertex " + std::to_string(vertex) + " has " + std::to_string(value));
-  };
-  detail::together(mesh.exchange().ranks(), [&] {
-    keys = allocate<decltype(keys)>("GALE::order_keys", mesh.owned_vertices().size());
-    for (const Id v : mesh.owned_vertices()) {
-      const double value = outputs::value_at(order, input[v]);
-      if (!(value >= 0 && value < count) || value != static_cast<double>(static_cast<GlobalId>(value)))
-        refuse(mesh.vertex_id(input[v]), value);
-      keys(v - mesh.owned_vertices().first) = {static_cast<GlobalId>(value), 0, 0};
-    }
-  });
-  const auto found = detail::places_of_keys(mesh.exchange().ranks(), keys);
-  if (found.count == mesh.all_vertices()) return;
-  throw SharedError("array '" + order.name + "' is no permutation of 0 to " + std::to_string(mesh.all_vertices() - 1) +
-                    ": it has " + std::to_string(found.count) + " different values");
 }
 
 }  // namespace gale::app

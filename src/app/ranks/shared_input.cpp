@@ -81,8 +81,10 @@ void take_file(const InputOptions& input, SharedInput& shared, std::optional<Gri
   shared.is_in_float = dataset.points.index() == 0;
   shared.field = outputs::select_field(dataset, input.read.array);
   shared.order = outputs::order_values(dataset, shared.field, vertices);
+  const std::string contradiction = outputs::contradiction_in(dataset, shared.field, vertices);
   shared.arrays = std::move(dataset.arrays);
   shared.notices = std::move(dataset.notices);
+  if (!contradiction.empty()) shared.notices.push_back(contradiction);
 }
 
 /// Has the other ranks have the arrays of the first, without values.
@@ -247,7 +249,8 @@ FieldOnMesh read_on_ranks(const InputOptions& from, int capacity, const WantedOf
   }
   input.part = {};
   begin_step("ordering the vertices");
-  if (input.has_order) require_permutation(mesh, held_values(mesh, input.order));
+  std::string note;
+  if (input.has_order) note = note_of_order(mesh, held_values(mesh, input.order), held_values(mesh, input.field));
   const VertexOrder order = order_by(mesh, input.order);
   io::PointArray field{input.field.name, 1, {}};
   io::Dataset dataset;
@@ -263,7 +266,7 @@ FieldOnMesh read_on_ranks(const InputOptions& from, int capacity, const WantedOf
   } else if (wanted.values) {
     field = held_values(mesh, input.field);
   }
-  return {std::move(dataset), mesh, std::move(field), order, input.has_ids, values};
+  return {std::move(dataset), mesh, std::move(field), order, input.has_ids, values, note};
 }
 
 }  // namespace gale::app

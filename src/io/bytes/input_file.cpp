@@ -79,15 +79,16 @@ std::size_t FileBytes::read(char* to, std::size_t bytes) {
   return count;
 }
 
-FileSequence::FileSequence(const std::vector<std::string>& paths, std::uint64_t begin, std::uint64_t bytes)
-    : paths_(paths), begin_(begin), bytes_(bytes) {
+FileSequence::FileSequence(const std::vector<std::string>& paths, const Begin& begin, std::uint64_t bytes)
+    : paths_(paths), bytes_(bytes) {
   DistinctFiles files;
   for (const std::string& path : paths_) {
     const std::unique_ptr<InputFile> file = open_input(path);
-    const std::uint64_t size = file->size();
+    const std::uint64_t size = file->size(), first = begin(*file);
     files.add(*file, path);
-    if (size < begin || size - begin < bytes)
-      damaged("its file '", path, "' has ", size, " bytes, not ", bytes, " from byte ", begin, " on");
+    if (size < first || size - first < bytes)
+      damaged("its file '", path, "' has ", size, " bytes, not ", bytes, " from byte ", first, " on");
+    begin_.push_back(first);
   }
 }
 
@@ -96,7 +97,7 @@ std::size_t FileSequence::read(char* to, std::size_t bytes) {
   while (got < bytes && current_ < paths_.size()) {
     if (!file_) file_ = open_input(paths_[current_]);
     const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(bytes - got, bytes_ - read_));
-    file_->read(begin_ + read_, to + got, count);
+    file_->read(begin_[current_] + read_, to + got, count);
     got += count;
     read_ += count;
     if (read_ < bytes_) continue;

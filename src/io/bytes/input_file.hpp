@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -84,18 +85,23 @@ class FileBytes : public ByteSource {
   std::uint64_t at_;
 };
 
-/// Values that several files have in the same place: the bytes [begin, begin + bytes) of each, one after the other. One
-/// is open at a time.
+/// Values that several files have: the bytes [begin, begin + bytes) of each, one after the other. One is open at a
+/// time.
 class FileSequence : public ByteSource {
  public:
-  /// Throws gale::Error, naming the file, if one can't be opened, is shorter, or is there twice.
-  FileSequence(const std::vector<std::string>& paths, std::uint64_t begin, std::uint64_t bytes);
+  /// Finds where the values of a file begin.
+  using Begin = std::function<std::uint64_t(const InputFile& file)>;
+
+  /// Throws gale::Error, naming the file, if one can't be opened, is shorter, or is there twice, and what begin()
+  /// throws.
+  FileSequence(const std::vector<std::string>& paths, const Begin& begin, std::uint64_t bytes);
   std::size_t read(char* to, std::size_t bytes) override;
   std::uint64_t at_most() const override { return (paths_.size() - current_) * bytes_ - read_; }
 
  private:
   std::vector<std::string> paths_;
-  std::uint64_t begin_, bytes_;
+  std::vector<std::uint64_t> begin_;  ///< in each file
+  std::uint64_t bytes_;
   std::size_t current_ = 0;
   std::uint64_t read_ = 0;  ///< how much of the current file
   std::unique_ptr<InputFile> file_;

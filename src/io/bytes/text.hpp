@@ -1,6 +1,7 @@
 #pragma once
 
 #include <charconv>
+#include <cstdint>
 #include <cstdlib>
 #include <string>
 #include <string_view>
@@ -45,6 +46,12 @@ GALE_EXPORT std::string printable(const std::string& text);
 template <class... Parts>
 [[noreturn]] void damaged(const Parts&... parts) {
   refuse("it is damaged, incomplete or of another format (", printable(text_of(parts...)), ")");
+}
+
+/// Where the text of a file begins: behind UTF-8's byte-order mark, where it has one.
+inline std::uint64_t begin_of_text(const InputFile& file) {
+  const std::string mark = "\xef\xbb\xbf";
+  return file.begins_with(mark) ? mark.size() : 0;
 }
 
 /// Words, lines and raw bytes of a source, which must outlive it.

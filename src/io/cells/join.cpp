@@ -25,17 +25,20 @@ Numbers sort(Numbers& ids) {
 
 }  // namespace
 
+ArrayKind kind_of(const PointArray& array) { return {array.name, array.components, array.values.index()}; }
+
 ArraysByKind by_kind(std::vector<PointArray>& arrays) {
   ArraysByKind result;
-  for (PointArray& array : arrays)
-    result.emplace(std::tuple(array.name, array.components, array.values.index()), &array);
+  for (PointArray& array : arrays) result.emplace(kind_of(array), &array);
   return result;
 }
 
 PointArray* find_alike(const ArraysByKind& arrays, const PointArray& array) {
-  const auto found = arrays.find(std::tuple(array.name, array.components, array.values.index()));
+  const auto found = arrays.find(kind_of(array));
   return found == arrays.end() ? nullptr : found->second;
 }
+
+std::string note_missing(const PointArray& array) { return note_array(array.name, "not all pieces have it"); }
 
 void JoinedPieces::add_arrays(std::vector<PointArray>& from) {
   if (!has_arrays_) {
@@ -43,11 +46,14 @@ void JoinedPieces::add_arrays(std::vector<PointArray>& from) {
     has_arrays_ = true;
     return;
   }
-  const ArraysByKind others = by_kind(from);
+  const ArraysByKind known = by_kind(arrays_), others = by_kind(from);
+  for (const PointArray& array : from) {
+    if (find_alike(known, array) == nullptr) notices_.add(note_missing(array));
+  }
   const auto is_missing = [&](PointArray& array) {
     const PointArray* const more = find_alike(others, array);
     if (more == nullptr) {
-      notices_.push_back(note_array(array.name, "not all pieces have it"));
+      notices_.add(note_missing(array));
       return true;
     }
     std::visit(
@@ -61,7 +67,7 @@ void JoinedPieces::add_arrays(std::vector<PointArray>& from) {
   arrays_.erase(std::remove_if(arrays_.begin(), arrays_.end(), is_missing), arrays_.end());
 }
 
-void JoinedPieces::add(MeshParts piece, bool has_own_numbers) {
+void JoinedPieces::add(MeshParts piece, bool has_own_numbers, bool has_points) {
   const auto begin = static_cast<std::int64_t>(connectivity_.size()), first_point = static_cast<std::int64_t>(points()),
              own_points = static_cast<std::int64_t>(count_of(piece.points) / 3);
   is_double_ |= std::holds_alternative<std::vector<double>>(piece.points);
@@ -77,10 +83,8 @@ void JoinedPieces::add(MeshParts piece, bool has_own_numbers) {
       point += first_point;
     });
   }
-  if (count_of(piece.points) > 0) add_arrays(piece.arrays);  // an empty piece may leave out arrays
-  for (std::string& notice : piece.notices) {
-    if (known_notices_.insert(notice).second) notices_.push_back(std::move(notice));
-  }
+  if (has_points) add_arrays(piece.arrays);  // an empty piece may leave out arrays
+  notices_.add(piece.notices);
 }
 
 MeshParts JoinedPieces::take() {
@@ -92,7 +96,7 @@ MeshParts JoinedPieces::take() {
   }
   all.cells = {std::move(types_), std::move(ends_), std::move(connectivity_)};
   all.arrays = std::move(arrays_);
-  all.notices = std::move(notices_);
+  all.notices = notices_.take();
   return all;
 }
 

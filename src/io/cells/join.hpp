@@ -8,8 +8,10 @@
 #include <string>
 #include <tuple>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
+#include <gale/io/bytes/values.hpp>
 #include <gale/io/cells/cells.hpp>
 
 namespace gale::io::detail {
@@ -34,11 +36,34 @@ void append(const PointArray::Values& from, To offset, std::vector<To>& to) {
       from);
 }
 
-/// Arrays by what those of several pieces have in common that become one: name, components, type. Of two alike the
-/// first counts. The arrays must stay.
-using ArraysByKind = std::map<std::tuple<std::string, int, std::size_t>, PointArray*>;
+/// What arrays of several pieces have in common that become one: name, components, type.
+using ArrayKind = std::tuple<std::string, int, std::size_t>;
+ArrayKind kind_of(const PointArray& array);
+
+/// Arrays by their kinds. Of two alike the first counts. The arrays must stay.
+using ArraysByKind = std::map<ArrayKind, PointArray*>;
 ArraysByKind by_kind(std::vector<PointArray>& arrays);
 PointArray* find_alike(const ArraysByKind& arrays, const PointArray& array);
+
+/// Texts in the order in which they come, each once.
+class DistinctTexts {
+ public:
+  void add(const std::string& text) {
+    if (known_.insert(text).second) all_.push_back(text);
+  }
+  void add(const std::vector<std::string>& texts) {
+    for (const std::string& text : texts) add(text);
+  }
+
+  std::vector<std::string> take() { return std::move(all_); }
+
+ private:
+  std::vector<std::string> all_;
+  std::set<std::string> known_;
+};
+
+/// The notice about a point array that is left out as not all pieces have it.
+std::string note_missing(const PointArray& array);
 
 /// Calls visit(cell, point) for each point that the cells from `first` on name: what polyhedra have besides are counts.
 /// Cells may be unchecked: it ends where one leaves the connectivity.
@@ -62,31 +87,34 @@ void for_each_point(const std::vector<std::int64_t>& types, const std::vector<st
   }
 }
 
-/// Pieces of a mesh, one behind the other. Of their arrays those stay that all pieces have which have points. Nothing
-/// else of the cells is checked.
+/// Pieces of a mesh, one behind the other. Of their arrays those stay that all pieces have which have points, with a
+/// notice about each other one. Nothing else of the cells is checked.
 class JoinedPieces {
  public:
   /// A piece whose points are numbered from 0 on, behind the points before. Throws gale::Error for a cell that names
   /// another one: it could be the next piece's.
-  void add(MeshParts piece) { add(std::move(piece), true); }
+  void add(MeshParts piece) {
+    const bool has_points = count_of(piece.points) > 0;
+    add(std::move(piece), true, has_points);
+  }
 
-  /// A piece whose cells name all points by their places among the joined ones.
-  void add_numbered(MeshParts piece) { add(std::move(piece), false); }
+  /// A piece whose cells name all points by their places among the joined ones. Its arrays count where it `has_points`,
+  /// even if pieces before have all of these.
+  void add_numbered(MeshParts piece, bool has_points) { add(std::move(piece), false, has_points); }
 
   std::size_t points() const { return points_.size() / 3; }
 
   MeshParts take();
 
  private:
-  void add(MeshParts piece, bool has_own_numbers);
+  void add(MeshParts piece, bool has_own_numbers, bool has_points);
   void add_arrays(std::vector<PointArray>& from);
 
   // One type for all that pieces may have in different ones.
   std::vector<double> points_;
   std::vector<std::int64_t> types_, ends_, connectivity_;
   std::vector<PointArray> arrays_;
-  std::vector<std::string> notices_;
-  std::set<std::string> known_notices_;
+  DistinctTexts notices_;
   bool is_double_ = false, has_arrays_ = false;
 };
 

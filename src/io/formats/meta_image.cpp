@@ -154,7 +154,8 @@ PointArray::Values read_slices(const InputFile& file, const TextHeader& header, 
   for (const std::string& name : names) paths.push_back(path_of_data(file.path(), name, options));
   const auto begin = number_or<std::int64_t>(header, "HeaderSize", 0);
   if (begin < 0) damaged("HeaderSize is ", begin, " for several data files");
-  FileSequence source(paths, static_cast<std::uint64_t>(begin), bytes / names.size());
+  const auto begin_of = [begin](const InputFile&) { return static_cast<std::uint64_t>(begin); };
+  FileSequence source(paths, begin_of, bytes / names.size());
   return volume.read(source);
 }
 

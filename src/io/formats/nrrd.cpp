@@ -134,22 +134,32 @@ std::vector<std::string> data_files(const TextHeader& header) {
                           most_files);
 }
 
-/// Where the values begin: past the lines and bytes to skip.
-std::uint64_t skip(const InputFile& data, std::uint64_t begin, const TextHeader& header, std::uint64_t bytes_at_end) {
-  const auto lines = integer(header, "lineskip", 0), bytes = integer(header, "byteskip", 0);
-  if (lines < 0 || bytes < -1) damaged("it skips ", lines, " lines and ", bytes, " bytes");
-  if (lines > 0) {
-    FileBytes source(data, begin);
-    TextReader text(source);
-    std::string line;
-    for (std::int64_t k = 0; k < lines; ++k) {
-      if (!text.line(line)) damaged("it ends before the ", lines, " lines to skip");
-    }
-    begin = data.size() - text.at_most();
+/// Where a file goes on past the lines to skip.
+std::uint64_t skip_lines(const InputFile& data, std::uint64_t begin, const TextHeader& header) {
+  const auto lines = integer(header, "lineskip", 0);
+  if (lines < 0) damaged("it skips ", lines, " lines");
+  if (lines == 0) return begin;
+  FileBytes source(data, begin);
+  TextReader text(source);
+  std::string line;
+  for (std::int64_t k = 0; k < lines; ++k) {
+    if (!text.line(line)) damaged("its file '", data.path(), "' ends before the ", lines, " lines to skip");
   }
-  if (bytes >= 0) return begin + static_cast<std::uint64_t>(bytes);
-  if (bytes_at_end > data.size()) damaged("it has ", data.size(), " bytes, not ", bytes_at_end);
-  return data.size() - bytes_at_end;
+  return data.size() - text.at_most();
+}
+
+/// The bytes to skip behind these lines; nothing where the values are the last bytes of their file.
+std::optional<std::uint64_t> bytes_to_skip(const TextHeader& header, bool is_raw) {
+  const auto bytes = integer(header, "byteskip", 0);
+  if (bytes < -1) damaged("it skips ", bytes, " bytes");
+  if (bytes == -1 && !is_raw) damaged("its byte skip is -1, which is for raw values alone");
+  return bytes == -1 ? std::nullopt : std::optional(static_cast<std::uint64_t>(bytes));
+}
+
+/// Where the last bytes of a file begin.
+std::uint64_t begin_of_last(std::uint64_t bytes, const InputFile& data) {
+  if (bytes > data.size()) damaged("its file '", data.path(), "' has ", data.size(), " bytes, not ", bytes);
+  return data.size() - bytes;
 }
 
 PointArray::Values read_data(const InputFile& file, const TextHeader& header, const Volume& volume,
@@ -161,18 +171,24 @@ PointArray::Values read_data(const InputFile& file, const TextHeader& header, co
   std::vector<std::string> paths;
   for (const std::string& name : data_files(header)) paths.push_back(path_of_data(file.path(), name, options));
   if (header.has("datafile") && paths.empty()) damaged("it names no data file");
+  const std::optional<std::uint64_t> skipped = bytes_to_skip(header, raw);
   if (paths.size() > 1) {
     if (!raw) refuse("its values are in several files of the encoding ", encoding, ", which isn't read");
     if (volume.bytes() % paths.size() != 0) damaged("its ", paths.size(), " data files don't have the same size");
-    FileSequence source(paths, static_cast<std::uint64_t>(std::max<std::int64_t>(0, integer(header, "byteskip", 0))),
-                        volume.bytes() / paths.size());
+    const std::uint64_t bytes = volume.bytes() / paths.size();
+    const auto begin = [&](const InputFile& data) {
+      const std::uint64_t behind_lines = skip_lines(data, 0, header);
+      return skipped ? behind_lines + *skipped : begin_of_last(bytes, data);
+    };
+    FileSequence source(paths, begin, bytes);
     return volume.read(source);
   }
   std::unique_ptr<InputFile> other;
   if (!paths.empty()) other = open_input(paths[0]);
   const InputFile& data = other ? *other : file;
-  const std::uint64_t begin = skip(data, other ? 0 : header.end, header, volume.bytes());
-  return volume.read(data, begin, text ? Packing::text : zipped ? Packing::compressed : Packing::raw);
+  const std::uint64_t behind_lines = skip_lines(data, other ? 0 : header.end, header);
+  if (!skipped) return volume.read(data, begin_of_last(volume.bytes(), data), Packing::raw);
+  return volume.read(data, behind_lines, text ? Packing::text : zipped ? Packing::compressed : Packing::raw, *skipped);
 }
 
 }  // namespace

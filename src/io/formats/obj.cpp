@@ -72,7 +72,7 @@ struct Obj {
 }  // namespace
 
 Content read_obj(const InputFile& input, const ReadOptions& options) {
-  FileBytes bytes(input, 0);
+  FileBytes bytes(input, begin_of_text(input));
   TextReader text(bytes);
   Obj obj;
   std::int64_t number = 0;

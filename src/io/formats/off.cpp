@@ -52,7 +52,7 @@ std::int64_t count_in(std::string_view word, const char* what, std::uint64_t mos
 }  // namespace
 
 Content read_off(const InputFile& input, const ReadOptions& options) {
-  FileBytes bytes(input, 0);
+  FileBytes bytes(input, begin_of_text(input));
   TextReader text(bytes);
   OffLines lines(text);
   Words header = lines.next("its first line");

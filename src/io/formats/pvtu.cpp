@@ -111,7 +111,7 @@ class SharedPieces {
       parts.points = points.values;
       for (PointArray& array : parts.arrays) array = gather(array, fresh);
     }
-    joined_.add_numbered(std::move(parts));
+    joined_.add_numbered(std::move(parts), !places.empty());
   }
 
   /// Points and cells are in the order of their ids, so that no result depends on how they were dealt out to pieces.
@@ -202,17 +202,15 @@ Ids ids_of_cells(const XmlFile& file, const XmlElement& piece, std::size_t cells
   return to_ids(*values, name, "cell");
 }
 
-/// Adds a piece's file, and says what its cell arrays are called.
-std::vector<std::string> add_file(const InputFile& input, const PieceNames& names, SharedPieces& shared) {
-  std::vector<std::string> cell_arrays;
+/// Adds a piece's file, and what its cell arrays are called.
+void add_file(const InputFile& input, const PieceNames& names, SharedPieces& shared, DistinctTexts& cell_arrays) {
   const XmlFile file = read_xml(input, "UnstructuredGrid", names.cell_ids);
   for (const XmlElement* element : pieces_of(file)) {
     FilePiece piece{read_piece(file, *element), read_cell_array(file, *element, ghost_array), {}};
     piece.cell_ids = ids_of_cells(file, *element, count_of(piece.parts.cells.types), names.cell_ids);
     shared.add(std::move(piece));
-    if (cell_arrays.empty()) cell_arrays = names_of_cell_data(*element);
+    cell_arrays.add(names_of_cell_data(*element));
   }
-  return cell_arrays;
 }
 
 /// The names of its pieces' files. Who reads some of them alone sees here that none is named twice.
@@ -236,20 +234,20 @@ std::string name_of_ids(const XmlElement& grid, const char* section) {
 
 JoinedWithIds join(const InputFile& input, const PieceNames& names, const ReadOptions& options) {
   SharedPieces shared(names);
-  std::vector<std::string> cell_arrays;
+  DistinctTexts names_of_arrays;
   DistinctFiles files;
   for (const std::string& source : names.sources) {
     const std::string path = path_of_data(input.path(), source, options);
     try {
       const InputFile piece(path);
       files.add(piece, source);
-      const std::vector<std::string> found = add_file(piece, names, shared);
-      if (cell_arrays.empty()) cell_arrays = found;
+      add_file(piece, names, shared, names_of_arrays);
     } catch (const Error& error) {
       refuse("its piece '", printable(source), "': ", error.what());
     }
   }
   JoinedWithIds all = shared.take();
+  std::vector<std::string> cell_arrays = names_of_arrays.take();
   for (const std::string& used : {std::string(ghost_array), names.cell_ids})
     cell_arrays.erase(std::remove(cell_arrays.begin(), cell_arrays.end(), used), cell_arrays.end());
   if (!cell_arrays.empty()) all.parts.notices.push_back(note_cell_arrays(cell_arrays));

@@ -95,8 +95,9 @@ std::optional<std::uint32_t> facets_of_binary(const InputFile& input) {
 
 /// Whether it begins as a text does. Binary files may, too.
 bool begins_as_text(const InputFile& input) {
-  std::string begin(std::min<std::uint64_t>(5, input.size()), ' ');
-  input.read(0, begin.data(), begin.size());
+  const std::uint64_t at = begin_of_text(input);
+  std::string begin(std::min<std::uint64_t>(5, input.size() - at), ' ');
+  input.read(at, begin.data(), begin.size());
   return lower_case(begin) == "solid";
 }
 
@@ -118,7 +119,7 @@ void read_binary(const InputFile& input, std::uint64_t count, Facets& facets) {
 /// A text of solids: words, whose keywords count in either case.
 class Solids {
  public:
-  explicit Solids(const InputFile& input) : bytes_(input, 0), text_(bytes_) {}
+  explicit Solids(const InputFile& input) : bytes_(input, begin_of_text(input)), text_(bytes_) {}
 
   void read(Facets& facets) {
     std::string name;

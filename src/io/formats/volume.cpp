@@ -21,19 +21,21 @@ std::uint64_t Volume::count() const {
   return product({dimensions[0], dimensions[1], dimensions[2], components}, "dimensions");
 }
 
-std::uint64_t Volume::bytes() const { return count() * size_of(type); }
+std::uint64_t Volume::bytes() const { return product(count(), size_of(type)); }
 
 PointArray::Values Volume::read(ByteSource& source) const { return read_values(source, type, count(), order); }
 
-PointArray::Values Volume::read(const InputFile& file, std::uint64_t begin, Packing packing) const {
-  FileBytes content(file, begin);
+PointArray::Values Volume::read(const InputFile& file, std::uint64_t begin, Packing packing,
+                                std::uint64_t behind) const {
+  FileBytes content(file, packing == Packing::compressed ? begin : begin + behind);
   if (packing == Packing::raw) return read(content);
   if (packing == Packing::text) {
     TextReader text(content);
     return read_text_values(text, type, count());
   }
-  if (auto values = read_at_once(file, begin, 0)) return std::move(*values);
+  if (auto values = read_at_once(file, begin, behind)) return std::move(*values);
   const auto whole = inflated(file, begin);  // which tells what is wrong
+  skip_all(*whole, behind, "what comes before its values");
   PointArray::Values values = read(*whole);
   check_sum(*whole);
   return values;

@@ -23,7 +23,7 @@ struct Volume {
   ValueType type = ValueType::uint8;
   ByteOrder order = byte_order_of_machine();
 
-  /// Throws gale::Error unless dimensions and components are positive and fit int, and their product a file.
+  /// Throws gale::Error unless dimensions and components are positive and fit int, and all values a file.
   std::uint64_t count() const;
   std::uint64_t bytes() const;
 
@@ -35,8 +35,9 @@ struct Volume {
   std::optional<PointArray::Values> read_at_once(const InputFile& file, std::uint64_t begin,
                                                  std::uint64_t behind) const;
 
-  /// Throws gale::Error unless the file has them all from that byte on.
-  PointArray::Values read(const InputFile& file, std::uint64_t begin, Packing packing) const;
+  /// The values behind so many bytes of what a file's bytes from `begin` on are or, compressed, stand for. Throws
+  /// gale::Error unless the file has them all.
+  PointArray::Values read(const InputFile& file, std::uint64_t begin, Packing packing, std::uint64_t behind = 0) const;
 
   /// An image with one array and nothing else.
   Image image(const std::string& name, PointArray::Values values) const;

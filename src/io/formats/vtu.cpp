@@ -249,7 +249,9 @@ Content read_all_pieces(const InputFile& input, const char* type, const ReadOpti
   const XmlFile file = read_xml(input, type);
   const std::vector<const XmlElement*> pieces = pieces_of(file);
   if (pieces.empty()) throw Error("it has no tetrahedra and no triangles");
-  const std::vector<std::string> cell_arrays = names_of_cell_data(*pieces.front());
+  DistinctTexts names;
+  for (const XmlElement* const piece : pieces) names.add(names_of_cell_data(*piece));
+  const std::vector<std::string> cell_arrays = names.take();
   if (pieces.size() == 1) {
     if (std::optional<Dataset> mesh = read_plain(file, *pieces.front())) {
       if (!cell_arrays.empty()) mesh->notices.push_back(note_cell_arrays(cell_arrays));

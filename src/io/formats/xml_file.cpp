@@ -294,7 +294,7 @@ XmlArrays read_point_data(const XmlFile& file, const XmlElement& piece, std::uin
   XmlArrays result;
   const XmlElement* const data = piece.child("PointData");
   if (data == nullptr) return result;
-  const std::string scalars = data->attribute("Scalars");
+  const std::string scalars = data->attribute("Scalars"), ids = data->attribute("GlobalIds");
   bool has_scalars = scalars.empty();
   for (const XmlElement& array : data->children) {
     if (array.name != "DataArray" && array.name != "Array") continue;
@@ -312,6 +312,8 @@ XmlArrays read_point_data(const XmlFile& file, const XmlElement& piece, std::uin
     result.arrays.insert(first ? result.arrays.begin() : result.arrays.end(),
                          PointArray{name, static_cast<int>(components), read_array(file, array, count)});
   }
+  const auto is_looked_at = [&](const PointArray& array) { return array.name != ids || array.name == scalars; };
+  if (!ids.empty()) std::stable_partition(result.arrays.begin(), result.arrays.end(), is_looked_at);
   return result;
 }
 

@@ -81,8 +81,8 @@ using UseBlock = std::function<void(ValueType type, std::uint64_t first, const c
 /// number of values. Throws gale::Error if one is damaged, and what use() throws.
 bool use_blocks(const XmlFile& file, const XmlElement& array, std::uint64_t count, const UseBlock& use);
 
-/// The arrays of a PointData element, of `points` points each, the active scalars first; a notice about each whose
-/// values are no numbers.
+/// The arrays of a PointData element, of `points` points each, the active scalars first, global ids last; a notice
+/// about each whose values are no numbers.
 struct XmlArrays {
   std::vector<PointArray> arrays;
   std::vector<std::string> notices;

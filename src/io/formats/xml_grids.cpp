@@ -6,6 +6,7 @@
 #include <gale/io/bytes/text.hpp>
 #include <gale/io/bytes/values.hpp>
 #include <gale/io/cells/cells.hpp>
+#include <gale/io/cells/join.hpp>
 #include <gale/io/formats.hpp>
 #include <gale/io/formats/volume.hpp>
 #include <gale/io/formats/xml_pieces.hpp>
@@ -19,7 +20,7 @@ struct GridFile {
   GridFile(const InputFile& input, const char* type)
       : file(read_xml(input, type)),
         element(file.root.require(type)),
-        whole(extent_of(element, "WholeExtent")),
+        whole(whole_extent_of(element)),
         pieces(grid_pieces_of(element, whole)) {}
   GridFile(const GridFile&) = delete;
   GridFile& operator=(const GridFile&) = delete;
@@ -36,6 +37,13 @@ struct GridFile {
     });
   }
 
+  /// The names of all pieces' cell arrays.
+  std::vector<std::string> cell_data() const {
+    DistinctTexts names;
+    for (const GridPiece& piece : pieces) names.add(names_of_cell_data(*piece.element));
+    return names.take();
+  }
+
   XmlFile file;
   const XmlElement& element;
   Extent whole;
@@ -48,7 +56,7 @@ MeshParts parts_of(const GridFile& grid, int type) {
   XmlArrays arrays = grid.point_data();
   parts.arrays = std::move(arrays.arrays);
   parts.notices = std::move(arrays.notices);
-  const std::vector<std::string> cell_arrays = names_of_cell_data(*grid.pieces[0].element);
+  const std::vector<std::string> cell_arrays = grid.cell_data();
   if (!cell_arrays.empty()) parts.notices.push_back(note_cell_arrays(cell_arrays));
   constexpr std::uint64_t most_without_values = 100000;
   if (parts.arrays.empty() && grid.whole.points() > most_without_values)
@@ -112,7 +120,9 @@ Content read_vti(const InputFile& input, const ReadOptions&) {
   const auto direction = numbers_in<double>(grid.element, "Direction", {1, 0, 0, 0, 1, 0, 0, 0, 1}, 9);
   Image image = oriented_image(grid.whole.low, grid.whole.high, origin, spacing, direction);
   XmlArrays arrays = grid.point_data();
-  if (arrays.arrays.empty() && arrays.notices.empty() && !names_of_cell_data(*grid.pieces[0].element).empty())
+  if (arrays.arrays.empty() && !arrays.notices.empty())
+    refuse("the image has no scalars: ", printable(arrays.notices.front()));
+  if (arrays.arrays.empty() && !grid.cell_data().empty())
     throw Error("the image has values in its cells, none at its points");
   image.arrays = std::move(arrays.arrays);
   image.notices = std::move(arrays.notices);
@@ -128,9 +138,10 @@ Content read_vts(const InputFile& input, const ReadOptions& options) {
       damaged("its points have ", array.attribute("NumberOfComponents"), " components");
     return XmlArrays{{{"", 3, read_array(grid.file, array, 3 * points)}}, {}};
   };
-  PointArray::Values points = join_pieces(grid.pieces, grid.whole, read).arrays[0].values;
+  std::vector<PointArray> points = join_pieces(grid.pieces, grid.whole, read).arrays;
+  if (points.empty()) damaged("the points of its pieces have different types");
   MeshParts parts = parts_of(grid, cell_type::hexahedron);
-  parts.points = std::move(points);
+  parts.points = std::move(points[0].values);
   return to_mesh(parts, options);
 }
 

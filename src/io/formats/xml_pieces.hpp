@@ -27,11 +27,12 @@ struct Extent {
   std::array<std::int64_t, 3> low{}, high{};
 
   std::int64_t size(int d) const { return high[d] - low[d] + 1; }
+  bool is_empty() const { return size(0) < 1 || size(1) < 1 || size(2) < 1; }
   std::uint64_t points() const { return product({size(0), size(1), size(2)}, "an extent"); }
 };
 
-/// Throws gale::Error for one that has no points.
-Extent extent_of(const XmlElement& element, const char* key);
+/// The WholeExtent of a grid. Throws gale::Error for one that has no points.
+Extent whole_extent_of(const XmlElement& grid);
 
 /// A piece of such a grid.
 struct GridPiece {
@@ -53,13 +54,14 @@ void for_each_row(const Extent& piece, const Extent& whole, const Visit& visit) 
   }
 }
 
-/// The pieces of a grid. Throws gale::Error if there are none, or one leaves the whole.
+/// The pieces of a grid that have points. Throws gale::Error if there are none, or one leaves the whole.
 std::vector<GridPiece> grid_pieces_of(const XmlElement& grid, const Extent& whole);
 
 [[noreturn]] void not_covered();
 
-/// Puts arrays of the pieces' points, which `read` reads of so many points each, where they belong. Each point must be
-/// in a piece; where pieces overlap, the later one counts.
+/// Puts arrays of the pieces' points, which `read` reads of so many points each, where they belong: those that all
+/// pieces have, with a notice about each other one. Each point must be in a piece; where pieces overlap, the later one
+/// counts.
 XmlArrays join_pieces(const std::vector<GridPiece>& pieces, const Extent& whole,
                       const std::function<XmlArrays(const XmlElement& piece, std::uint64_t points)>& read);
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include <gale/io/bytes/output_file.hpp>
+#include <gale/io/bytes/text.hpp>
 #include <gale/io/writers/writers.hpp>
 
 namespace gale::io::detail {
@@ -41,8 +42,12 @@ void write_data(OutputFile& file, const std::string& keyword, const std::string&
   if (arrays.empty()) return;
   file.write(keyword + rows + "\nFIELD FieldData " + std::to_string(arrays.size()) + "\n");
   for (const WrittenArray& array : arrays) {
-    file.write(
-        text_of(as_word(array.name), " ", array.components, " ", rows, " ", name_in(legacy_types, array.type), "\n"));
+    const std::string name = as_word(array.name);
+    constexpr std::size_t longest = 255;  // of the words that VTK reads
+    if (name.size() > longest)
+      refuse("the array '", printable(array.name), "' has a name of ", name.size(), " bytes, and legacy VTK has ",
+             longest, " at most");
+    file.write(text_of(name, " ", array.components, " ", rows, " ", name_in(legacy_types, array.type), "\n"));
     write_values(file, array);
   }
 }

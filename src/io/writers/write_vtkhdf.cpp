@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <initializer_list>
 
@@ -219,11 +220,16 @@ class Hdf5Writer {
     header.put("FAHD").put({0, of_filtered, entry_bytes, page_bits}).put(count, 8).put(at + header_bytes, 8);
     write(header.put_checksum());
     write(entries.put("FADB").put({0, of_filtered}).put(at, 8).put(list.all()).put_checksum());
-    constexpr unsigned chunked = 2, fixed_array = 3, number_bytes = 8;
+    constexpr unsigned chunked = 2, fixed_array = 3;
+    Shape numbers = chunk;
+    numbers.push_back(size);
+    const std::uint64_t greatest = *std::max_element(numbers.begin(), numbers.end());
+    unsigned number_bytes = 1;
+    while (greatest >> 8 * number_bytes != 0) ++number_bytes;  // HDF5 takes no more
     StructureBytes layout;
-    layout.put({4, chunked, 0, static_cast<unsigned>(chunk.size() + 1), number_bytes});
-    for (const std::uint64_t n : chunk) layout.put(n, number_bytes);
-    return layout.put(size, number_bytes).put({fixed_array, page_bits}).put(at, 8).all();
+    layout.put({4, chunked, 0, static_cast<unsigned>(numbers.size()), number_bytes});
+    for (const std::uint64_t n : numbers) layout.put(n, number_bytes);
+    return layout.put({fixed_array, page_bits}).put(at, 8).all();
   }
 
   OutputFile file_;
