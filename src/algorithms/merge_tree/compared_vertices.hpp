@@ -14,8 +14,8 @@ struct ComparedVertices {
   std::vector<Id> vertices;
   std::vector<std::uint64_t> keys;
 
-  /// Puts places here in place of vertices, of those where paths meet, and of others that are none. `keys_of(vertices)`
-  /// returns the keys of some.
+  /// Puts the places in their order where lists have vertices, and meetings theirs, and returns what is at these
+  /// places. `keys_of(vertices)` are the keys of some.
   template <class KeysOf>
   static ComparedVertices numbered(const std::vector<std::vector<Id>*>& others,
                                    const std::vector<std::vector<Meeting>*>& meetings, const KeysOf& keys_of) {
