@@ -13,7 +13,7 @@ namespace {
 using test::error_of;
 using test::names_of;
 using test::values_of;
-using Names = std::vector<std::string>;
+using ArrayNames = std::vector<std::string>;
 
 class Pieces : public test::VtkTest {};
 
@@ -50,14 +50,14 @@ std::string note(const std::string& name) { return "left out the point array '" 
 
 /// Arrays of pieces' points, and what is left of them.
 struct Case {
-  Names pieces, left, notices;
+  ArrayNames pieces, left, notices;
 };
 
 const std::vector<Case> cases = {{{"fg", "f"}, {"f"}, {note("g")}},        {{"f", "fg"}, {"f"}, {note("g")}},
                                  {{"f", "g"}, {}, {note("f"), note("g")}}, {{"", "g"}, {}, {note("g")}},
                                  {{"gf", "f", "fg"}, {"f"}, {note("g")}},  {{"fg", "gf"}, {"f", "g"}, {}}};
 
-std::set<std::string> as_set(const Names& names) { return {names.begin(), names.end()}; }
+std::set<std::string> as_set(const ArrayNames& names) { return {names.begin(), names.end()}; }
 
 TEST_F(Pieces, OfMeshesLeaveOutArraysThatAnyPieceLacks) {
   for (const Case& one : cases) {
@@ -87,7 +87,7 @@ TEST_F(Pieces, OfSharedPointsAloneCount) {
   const Dataset mesh = read(
       folder.put("all.pvtu", xml_of("PUnstructuredGrid", "", R"(<Piece Source="0.vtu"/><Piece Source="1.vtu"/>)")));
   EXPECT_TRUE(mesh.arrays.empty());
-  EXPECT_EQ(mesh.notices, (Names{note("g"), note("f")}));
+  EXPECT_EQ(mesh.notices, (ArrayNames{note("g"), note("f")}));
 }
 
 TEST_F(Pieces, NameTheCellArraysOfAll) {
@@ -97,7 +97,7 @@ TEST_F(Pieces, NameTheCellArraysOfAll) {
   for (const std::string& path :
        {folder.put("all.vtu", xml_of("UnstructuredGrid", "", piece + other)),
         folder.put("all.pvtu", xml_of("PUnstructuredGrid", "", R"(<Piece Source="0.vtu"/><Piece Source="1.vtu"/>)"))}) {
-    EXPECT_EQ(read(path).notices, Names{"left out the cell arrays 'q', 'p'"});
+    EXPECT_EQ(read(path).notices, ArrayNames{"left out the cell arrays 'q', 'p'"});
   }
 }
 
@@ -106,10 +106,10 @@ TEST_F(Pieces, PutGlobalIdsBehindOtherArrays) {
     return names_of(
         read(folder.put("a.vtu", xml_of("UnstructuredGrid", "", tetrahedron(0, "ifg", "", attributes)))).arrays);
   };
-  EXPECT_EQ(names(""), (Names{"i", "f", "g"}));
-  EXPECT_EQ(names(R"( GlobalIds="i")"), (Names{"f", "g", "i"}));
-  EXPECT_EQ(names(R"( GlobalIds="i" Scalars="g")"), (Names{"g", "f", "i"}));
-  EXPECT_EQ(names(R"( GlobalIds="i" Scalars="i")"), (Names{"i", "f", "g"}));
+  EXPECT_EQ(names(""), (ArrayNames{"i", "f", "g"}));
+  EXPECT_EQ(names(R"( GlobalIds="i")"), (ArrayNames{"f", "g", "i"}));
+  EXPECT_EQ(names(R"( GlobalIds="i" Scalars="g")"), (ArrayNames{"g", "f", "i"}));
+  EXPECT_EQ(names(R"( GlobalIds="i" Scalars="i")"), (ArrayNames{"i", "f", "g"}));
 }
 
 /// Half of a grid of 3 x 2 x 2 points, whose values are places along x.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include <gale/algorithms/merge_tree/extremum_graph.hpp>
@@ -28,17 +29,18 @@ struct ComparedVertices {
     }
     std::vector<Id> asked(all.size());
     for (std::size_t i = 0; i < all.size(); ++i) asked[i] = *all[i];
-    std::vector<std::uint64_t> keys = keys_of(asked);
-    const auto sorted = stable_sort_places(HostExecutionSpace(), "GALE::sort_compared",
-                                           Array<std::uint64_t, HostMemory>(keys.data(), keys.size()));
+    const std::vector<std::uint64_t> keys = keys_of(asked);
+    std::vector<std::pair<std::uint64_t, Id*>> sorted(all.size());
+    for (std::size_t i = 0; i < all.size(); ++i) sorted[i] = {keys[i], all[i]};
+    parallel_sort("GALE::sort_compared", sorted.begin(), sorted.end(),
+                  [](const auto& a, const auto& b) { return a.first < b.first; });
     ComparedVertices compared;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      const Id at = sorted(i);
-      if (compared.vertices.empty() || compared.vertices.back() != asked[at]) {
-        compared.vertices.push_back(asked[at]);
-        compared.keys.push_back(keys[i]);
+    for (const auto& [key, vertex] : sorted) {
+      if (compared.keys.empty() || compared.keys.back() != key) {
+        compared.keys.push_back(key);
+        compared.vertices.push_back(*vertex);
       }
-      *all[at] = static_cast<Id>(compared.vertices.size()) - 1;
+      *vertex = static_cast<Id>(compared.vertices.size()) - 1;
     }
     return compared;
   }

@@ -81,6 +81,30 @@ struct CountOnArcs {
   }
 };
 
+/// How many vertices each of so many arcs has; on a device once what is enqueued is done.
+template <class Space>
+Array<Id, MemoryOf<Space>> counted(const Space& space, std::size_t arcs,
+                                   const Array<const Id, MemoryOf<Space>>& arc_of) {
+  using Count = CountOnArcs<MemoryOf<Space>>;
+  const Offset count = static_cast<Offset>(arc_of.extent(0));
+  const auto sizes = allocate<Array<Id, MemoryOf<Space>>>("GALE::sizes_of_arcs", arcs);
+  if constexpr (is_device<Space>) {
+    Kokkos::deep_copy(space, sizes, Id(0));
+    parallel_for("GALE::count_on_arcs", space, (count + stretch - 1) / stretch, Count{arc_of, sizes});
+  } else {
+    const auto of_all = of_parts("GALE::count_on_arcs", count, [&](Offset begin, Offset end) {
+      std::vector<Id> mine(arcs, 0);
+      Count{arc_of, Array<Id, HostMemory>(mine.data(), arcs)}.count_from(begin, end);
+      return mine;
+    });
+    parallel_for("GALE::add_on_arcs", space, static_cast<Offset>(arcs), [&](Offset arc) {
+      sizes(arc) = 0;
+      for (const std::vector<Id>& mine : of_all) sizes(arc) += mine[arc];
+    });
+  }
+  return sizes;
+}
+
 /// Finds the node of a vertex on one side.
 template <class Memory>
 struct NodeOf {
@@ -114,38 +138,25 @@ void find_arcs_of_vertices(const Space& space, const Mesh& mesh, const std::arra
   }
   for (const Side side : {below, above}) find.sides[side] = sides[side];
   parallel_for("GALE::find_arcs", space, mesh.vertices(), find);
+  std::vector<Array<Id, Memory>> sizes;
+  for (int tree = 0; tree < find.count; ++tree)
+    sizes.push_back(counted<Space>(space, trees[tree].arcs.size(), find.trees[tree].arc_of));
   if constexpr (is_device<Space>) make_room();  // meanwhile
   space.fence();
   for (std::size_t tree = 0; tree < trees.size(); ++tree) {
     const auto& arc_of = find.trees[tree].arc_of;
     if constexpr (is_device<Space>)
       copy_from_device(trees[tree].arc_of.data(), arc_of.data(), arc_of.extent(0) * sizeof(Id));
-    const std::vector<Id> sizes = sizes_of_arcs<Space>(space, trees[tree].arcs.size(), arc_of);
-    for (std::size_t arc = 0; arc < sizes.size(); ++arc) trees[tree].arcs[arc].size = sizes[arc];
+    const std::vector<Id> of_arcs = vector_of(sizes[tree]);
+    for (std::size_t arc = 0; arc < of_arcs.size(); ++arc) trees[tree].arcs[arc].size = of_arcs[arc];
   }
 }
 
 template <class Space>
 std::vector<Id> sizes_of_arcs(const Space& space, std::size_t arcs, const Array<const Id, MemoryOf<Space>>& arc_of) {
-  using Count = CountOnArcs<MemoryOf<Space>>;
-  const Offset count = static_cast<Offset>(arc_of.extent(0));
-  if constexpr (is_device<Space>) {
-    const auto sizes = allocate<Array<Id, MemoryOf<Space>>>("GALE::sizes_of_arcs", arcs);
-    Kokkos::deep_copy(space, sizes, Id(0));
-    parallel_for("GALE::count_on_arcs", space, (count + stretch - 1) / stretch, Count{arc_of, sizes});
-    space.fence();
-    return vector_of(sizes);
-  } else {
-    auto sizes = of_parts("GALE::count_on_arcs", count, [&](Offset begin, Offset end) {
-      std::vector<Id> mine(arcs, 0);
-      Count{arc_of, Array<Id, HostMemory>(mine.data(), arcs)}.count_from(begin, end);
-      return mine;
-    });
-    parallel_for("GALE::add_on_arcs", space, static_cast<Offset>(arcs), [&](Offset arc) {
-      for (std::size_t part = 1; part < sizes.size(); ++part) sizes[0][arc] += sizes[part][arc];
-    });
-    return std::move(sizes[0]);
-  }
+  const auto sizes = counted(space, arcs, arc_of);
+  space.fence();
+  return vector_of(sizes);
 }
 
 template <class Space>
