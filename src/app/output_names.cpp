@@ -9,6 +9,8 @@
 #include <gale/app/options.hpp>
 #include <gale/app/output_names.hpp>
 #include <gale/app/ranks/ranks.hpp>
+#include <gale/base/error.hpp>
+#include <gale/io/atomic_file.hpp>
 #include <gale/io/formats.hpp>
 
 namespace gale::app {
@@ -17,10 +19,16 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Where a path leads, as far as links can be followed.
+/// Where a path leads, as far as links can be followed, whether there is a file or not.
 fs::path real_path(const std::string& path) {
   std::error_code failure;
-  const fs::path absolute = fs::absolute(path, failure), real = fs::weakly_canonical(absolute, failure);
+  std::string end = path;
+  try {
+    end = io::detail::end_of_links(path);
+  } catch (const Error&) {
+    // Who opens it says what is wrong.
+  }
+  const fs::path absolute = fs::absolute(end, failure), real = fs::weakly_canonical(absolute, failure);
   return failure ? absolute.lexically_normal() : real;
 }
 

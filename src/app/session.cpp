@@ -145,10 +145,14 @@ io::Dataset Session::read() {
   return dataset;
 }
 
+io::PointArray select_field(const io::Dataset& dataset, const InputOptions& input) {
+  if (dataset.arrays.empty() && input.read.array.empty())
+    throw Error("'" + input.input + "' has no point array to analyse: --height x, y or z takes a coordinate");
+  return outputs::select_field(dataset, input.read.array);
+}
+
 io::PointArray Session::select_field(const io::Dataset& dataset) {
-  if (dataset.arrays.empty() && input_.read.array.empty())
-    throw Error("'" + input_.input + "' has no point array to analyse: --height x, y or z takes a coordinate");
-  io::PointArray field = outputs::select_field(dataset, input_.read.array);
+  io::PointArray field = app::select_field(dataset, input_);
   if (step_ == 0) console_.say("field", field.name);
   if (outputs::is_rounded(field)) note_rounded(field.name);
   return field;
@@ -211,7 +215,7 @@ FieldOnMesh Session::read_part(const SegmentationOptions& segmentation, Keep kee
                              has_outputs_ && keep == Keep::cells, keep == Keep::owned_values && !has_outputs_};
   FieldOnMesh on = read_on_ranks(input_, segmentation.capacity.value_or(default_capacity), wanted, was_read);
   tell_size(on.mesh.all_vertices(), on.mesh.all_cells(), on.mesh.dimension());
-  std::int64_t sums[] = {on.mesh.owned_segments().size(), outputs::is_rounded(on.field)};
+  std::int64_t sums[] = {on.mesh.owned_segments().size(), on.is_rounded};
   ranks_.sum(sums, 2);
   report_.segments = sums[0];
   if (step_ == 0) console_.say("field", on.field.name);

@@ -33,8 +33,12 @@ struct FieldOnMesh {
   VertexOrder order;
   bool has_ids = false;  ///< whether GlobalPointIds of the dataset are the points' in the input of all ranks
   outputs::ValuesOf values = outputs::ValuesOf::held_vertices;  ///< of the field
-  std::string note{};                                           ///< on the order; empty for none
+  bool is_rounded = false;  ///< on ranks: whether values that this one has read are (outputs::is_rounded)
+  std::string note{};       ///< on the order; empty for none
 };
+
+/// The field that an input names, or the first of its dataset. Throws gale::Error if there is none.
+io::PointArray select_field(const io::Dataset& dataset, const InputOptions& input);
 
 /// What outputs take of a field on a mesh at the vertices that results are named in: where that is an excerpt of the
 /// mesh, as on several ranks, what the owners of its vertices have, else that itself. Refers to the field.

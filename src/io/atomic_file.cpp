@@ -136,20 +136,21 @@ void named(const std::string& path, const Use& use) {
   }
 }
 
-/// What a link names, and a link that this is; any other path itself.
-std::string end_of_links(const std::string& path) {
+}  // namespace
+
+std::string detail::end_of_links(const std::string& path) {
   namespace fs = std::filesystem;
   constexpr int most_links = 40;  // as Linux has it
-  std::error_code unknown;
+  std::error_code failure;
   fs::path at = path;
-  for (int links = 0; fs::is_symlink(at, unknown); ++links) {
+  for (int links = 0; fs::is_symlink(at, failure); ++links) {
     if (links == most_links) throw Error(std::make_error_code(std::errc::too_many_symbolic_link_levels).message());
-    at = at.parent_path() / fs::read_symlink(at);
+    const fs::path next = fs::read_symlink(at, failure);
+    if (failure) throw Error(failure.message());
+    at = at.parent_path() / next;
   }
   return at.string();
 }
-
-}  // namespace
 
 AtomicFile::AtomicFile(const std::string& path, Encoding encoding) : path_(path), target_(path), encoding_(encoding) {
   namespace fs = std::filesystem;
@@ -157,7 +158,7 @@ AtomicFile::AtomicFile(const std::string& path, Encoding encoding) : path_(path)
   const fs::file_status there = fs::status(target_, unknown);
   if (fs::is_directory(there)) throw Error("it is a directory");
   if (fs::exists(there) && !fs::is_regular_file(there)) throw Error("it is not a regular file");
-  target_ = end_of_links(target_);
+  target_ = detail::end_of_links(target_);
   unnamed_ = make_unnamed(folder_of(target_));
   if (unnamed_ >= 0) {
     unnamed_path_ = path_of(unnamed_);

@@ -20,6 +20,10 @@ GALE_EXPORT void remove_temporary_files();
 
 namespace detail {
 
+/// The path that a link leads to, by as many links as it takes, whether there is a file or not; any other path itself.
+/// Throws gale::Error for links that lead in a circle or can't be read.
+GALE_EXPORT std::string end_of_links(const std::string& path);
+
 /// While it lives, the handler of the above waits, two seconds at most, before it ends the process: what is begun on
 /// this thread is done. To be destroyed on the thread that made it.
 class GALE_EXPORT Uninterrupted {

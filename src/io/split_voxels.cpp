@@ -58,6 +58,7 @@ Array<std::uint64_t, HostMemory> mark(const VoxelRows& rows, const Values& value
 template <class Value>
 bool is_above(Value value, double limit) {
   if constexpr (std::is_integral_v<Value> && sizeof(Value) == 8) {
+    if (std::isnan(limit)) return false;
     if (limit < static_cast<double>(std::numeric_limits<Value>::min())) return true;
     if (limit >= std::ldexp(1.0, std::numeric_limits<Value>::digits)) return false;
     return value > static_cast<Value>(std::floor(limit));

@@ -171,7 +171,7 @@ class Mesh::Data {
         simplices(mesh.arrays.dimension, [this]() -> const detail::MeshArrays& { return arrays(); }),
         divided_(mesh.arrays),
         permutations_(mesh.permutations) {
-    // What consumers read again and again is copied to the host now.
+    // What consumers read again and again is copied to the host now, as vertex_begin was.
     divided_.external_begin.in<HostMemory>();
     divided_.internal_begin.in<HostMemory>();
   }

@@ -171,6 +171,15 @@ class Outputs(gale.CommandTest):
                 self.refuse(2, *line.split(), naming="is named for two files")
         self.assertEqual({name: (self.folder / name).read_bytes() for name in self.names() if name != "folder"}, before)
 
+    def test_two_outputs_that_a_link_makes_one_are_refused(self):
+        (self.folder / "link.vtp").symlink_to("there.vtp")
+        (self.folder / "there.vtp").symlink_to("end.vtp")
+        for other in ("end.vtp", "there.vtp"):
+            self.refuse(2, "critical-points", "grid:4", "-o", "link.vtp", "--report", other, naming="is named for two files")
+        self.assertEqual(self.names(), ["link.vtp", "there.vtp"])
+        self.succeed("critical-points", "grid:4", "-o", "link.vtp")
+        self.assertEqual(self.names(), ["end.vtp", "link.vtp", "there.vtp"])
+
     @gale.needs_vtk
     def test_files_of_before_are_replaced_together(self):
         for name in FILES:

@@ -68,6 +68,25 @@ class PiecesOnRanks(ranks.ComplexTest):
                     for report in (self.report("critical-points", "parts.pvtu"), *(self.report_of(count, "critical-points", "parts.pvtu") for count in (2, 4))):
                         self.assertEqual([notice for notice in report["notices"] if "left out" in notice], [note])
 
+    def test_arrays_of_one_name_and_two_types(self):
+        """The second piece has the later one alone: it is what all have, whatever its name has before."""
+        for k, types in enumerate((("Int8", "Float64"), ("Float64",))):
+            arrays = "".join(xml_array(kind, "height", HEIGHTS[:4] if kind == "Float64" else [0, 0, 0, 0]) for kind in types)
+            self.write(f"part{k}.vtu", vtu([(x + k, y, z) for x, y, z in POINTS[:4]], CELLS[:1], arrays))
+        self.write("parts.pvtu", pvtu(["part0.vtu", "part1.vtu"]))
+        one = self.report("merge-tree", "parts.pvtu", "--array", "height")["result"]
+        for count in (2, 3):
+            self.assertEqual(self.report_of(count, "merge-tree", "parts.pvtu", "--array", "height")["result"], one)
+
+    def test_whole_numbers_that_are_rounded_are_noted(self):
+        for k in range(2):
+            self.write(f"part{k}.vtu", vtu([(x + k, y, z) for x, y, z in POINTS[:4]], CELLS[:1],
+                                           xml_array("Int64", "height", [2**60 * k + height for height in HEIGHTS[:4]])))
+        self.write("parts.pvtu", pvtu(["part0.vtu", "part1.vtu"]))
+        for report in (self.report("critical-points", "parts.pvtu"), *(self.report_of(count, "critical-points", "parts.pvtu") for count in (2, 3))):
+            self.assertEqual([notice for notice in report["notices"] if "2^53" in notice],
+                             ["'height' has whole numbers beyond 2^53: they are ordered exactly, but differences are of rounded values"])
+
     def test_ties_go_by_ids_on_any_number_of_ranks_and_pieces(self):
         self.succeed("generate", "grid:7", "-o", "whole.vtu")
         whole = gale.XmlFile(self.folder / "whole.vtu")

@@ -231,6 +231,9 @@ TEST_F(ReadImage, NrrdSkipsLinesAndBytesOfEachFile) {
     EXPECT_NE(error("byte skip: 99\ndata file: " + files).find("not 4 from byte 99 on"), std::string::npos);
   }
   EXPECT_NE(error("byte skip: -1\n\n1 2 3 4 5 6 7 8", "text").find("its byte skip is -1"), std::string::npos);
+  EXPECT_NE(error("byte skip: -1\n\nabc").find("has 3 bytes of values, not 8"), std::string::npos) << "no header's";
+  EXPECT_NE(error("line skip: 1\nbyte skip: -1\n\nabc\n1234567").find("has 7 bytes of values"), std::string::npos);
+  EXPECT_NE(error("line skip: 1\nbyte skip: -1\ndata file: LIST\nt0.raw\nt0.raw\n").find("t0.raw"), std::string::npos);
 }
 
 TEST_F(ReadImage, RefusesRowsOfVoxelsAndThresholdsThatNothingPasses) {

@@ -133,10 +133,11 @@ TEST_F(WriteMesh, RefusesNamesThatLegacyVtkHasNot) {
     mesh.arrays.back().name = name;
     return error_of([&] { write_mesh(path, mesh); });
   };
-  EXPECT_EQ(error_with(std::string(256, 'x')), "cannot write '" + path + "': the array '" + std::string(200, 'x') +
-                                                   "...' has a name of 256 bytes, and legacy VTK has 255 at most");
+  EXPECT_EQ(error_with(std::string(256, 'x')),
+            "cannot write '" + path + "': the array '" + std::string(200, 'x') +
+                "...' has a name that takes 256 bytes, and legacy VTK has 255 at most");
   EXPECT_EQ(error_with(std::string(86, '%')), "cannot write '" + path + "': the array '" + std::string(86, '%') +
-                                                  "' has a name of 258 bytes, and legacy VTK has 255 at most");
+                                                  "' has a name that takes 258 bytes, and legacy VTK has 255 at most");
   EXPECT_EQ(folder.names(), Names{});
   EXPECT_EQ(error_with(std::string(255, 'x')), "no error");
 }

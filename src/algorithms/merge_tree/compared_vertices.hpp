@@ -63,7 +63,7 @@ struct ComparedVertices {
   }
 };
 
-/// Does a side come to the vertex at place `a` before that at `b`?
+/// Compares places as a side comes to their vertices.
 struct SidePlaces {
   Side side;
   bool operator()(Id a, Id b) const { return side == below ? a < b : b < a; }

@@ -72,6 +72,9 @@ class TreeMaker {
     choose_nodes();
   }
 
+  TreeMaker(const TreeMaker&) = delete;  // keys_ may be those of compared_
+  TreeMaker& operator=(const TreeMaker&) = delete;
+
   /// Makes all trees of a mesh whose vertices are the graph's.
   std::vector<MergeTree> make(const Mesh& mesh, const ThresholdOfTree* threshold) const {
     std::vector<ArcsOfNodes> claims;

@@ -42,7 +42,7 @@ struct FindArcs {
   }
 };
 
-/// How many vertices that follow one another a thread of a device counts.
+/// The number of vertices that a thread of a device counts, one after the other.
 constexpr Offset stretch = 64;
 
 /// Counts vertices on their arcs, on a device those of the i-th stretch.
@@ -81,7 +81,7 @@ struct CountOnArcs {
   }
 };
 
-/// How many vertices each of so many arcs has; on a device once what is enqueued is done.
+/// The number of vertices on each of so many arcs; on a device once what is enqueued is done.
 template <class Space>
 Array<Id, MemoryOf<Space>> counted(const Space& space, std::size_t arcs,
                                    const Array<const Id, MemoryOf<Space>>& arc_of) {

@@ -40,7 +40,7 @@ template <class Space>
 void find_arcs_of_vertices(const Space& space, const Mesh& mesh, const std::array<SideClimb<MemoryOf<Space>>, 2>& sides,
                            const std::vector<ArcsOfNodes>& claims, std::vector<MergeTree>& trees);
 
-/// How many vertices each of so many arcs has; `arc_of` is that of each, or no_id.
+/// The number of vertices on each of so many arcs; `arc_of` is that of each, or no_id.
 template <class Space>
 std::vector<Id> sizes_of_arcs(const Space& space, std::size_t arcs, const Array<const Id, MemoryOf<Space>>& arc_of);
 

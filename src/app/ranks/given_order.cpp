@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstring>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <gale/app/ranks/shared_input.hpp>
@@ -18,16 +19,17 @@ void require_permutation(const Mesh& mesh, const io::PointArray& order) {
   const Id* const input = mesh.vertex_input().data();
   const auto count = static_cast<double>(mesh.all_vertices());
   Array<detail::SimplexKey, HostMemory> keys;
-  const auto refuse = [&](GlobalId vertex, double value) {
+  const auto refuse = [&](Id vertex) {
+    const auto text = [vertex](const auto& values) { return std::to_string(values[vertex]); };
     throw Error("array '" + order.name + "' is no permutation of 0 to " + std::to_string(mesh.all_vertices() - 1) +
-                ": vertex " + std::to_string(vertex) + " has " + std::to_string(value));
+                ": vertex " + std::to_string(mesh.vertex_id(vertex)) + " has " + std::visit(text, order.values));
   };
   detail::together(mesh.exchange().ranks(), [&] {
     keys = allocate<decltype(keys)>("GALE::order_keys", mesh.owned_vertices().size());
     for (const Id v : mesh.owned_vertices()) {
       const double value = outputs::value_at(order, input[v]);
       if (!(value >= 0 && value < count) || value != static_cast<double>(static_cast<GlobalId>(value)))
-        refuse(mesh.vertex_id(input[v]), value);
+        refuse(input[v]);
       keys(v - mesh.owned_vertices().first) = {static_cast<GlobalId>(value), 0, 0};
     }
   });

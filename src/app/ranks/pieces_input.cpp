@@ -5,6 +5,7 @@
 
 #include <gale/app/ranks/shared_input.hpp>
 #include <gale/app/session.hpp>
+#include <gale/io/cells/join.hpp>
 #include <gale/io/write.hpp>
 #include <gale/mesh/cells/split_cells.hpp>
 #include <gale/mesh/exchange/messages.hpp>
@@ -130,42 +131,37 @@ void keep_common(const Ranks& ranks, io::Dataset& mesh, Offset points) {
       common = std::move(theirs);
       continue;
     }
-    const auto is_in = [](const std::vector<io::PointArray>& arrays, const io::PointArray& array) {
-      return std::any_of(arrays.begin(), arrays.end(), [&](const io::PointArray& other) {
-        return other.name == array.name && other.components == array.components &&
-               other.values.index() == array.values.index();
-      });
+    const auto in_common = io::detail::by_kind(common), in_theirs = io::detail::by_kind(theirs);
+    const auto is_missing = [&](const io::detail::ArraysByKind& arrays, const io::PointArray& array) {
+      const bool is_there = io::detail::find_alike(arrays, array) != nullptr;
+      if (!is_there) mesh.notices.push_back(io::detail::note_missing(array));
+      return !is_there;
     };
-    const auto note = [&](const io::PointArray& array) {
-      mesh.notices.push_back("left out the point array '" + array.name + "': not all pieces have it");
-    };
-    for (const io::PointArray& array : theirs) {
-      if (!is_in(common, array)) note(array);
+    for (const io::PointArray& array : theirs) is_missing(in_common, array);
+    std::vector<io::PointArray> left;
+    for (const io::PointArray& array : common) {
+      if (!is_missing(in_theirs, array)) left.push_back(array);
     }
-    for (auto array = common.begin(); array != common.end();) {
-      const bool is_there = is_in(theirs, *array);
-      if (!is_there) note(*array);
-      array = is_there ? array + 1 : common.erase(array);
-    }
+    common = std::move(left);
   }
+  const auto own = io::detail::by_kind(mesh.arrays);
   if (points > 0) {
-    for (io::PointArray& array : common) array = *outputs::detail::find_array(mesh, array.name);
+    for (io::PointArray& array : common) array = *io::detail::find_alike(own, array);
   }
   mesh.arrays = std::move(common);
 }
 
 /// Adds what other ranks note of their pieces, once each. Collective.
 void share_notices(const Ranks& ranks, std::vector<std::string>& notices) {
+  constexpr char end = '\0';  // which no notice has
   std::string own;
-  for (const std::string& notice : notices) own += notice + '\n';
-  std::vector<std::string> all;
+  for (const std::string& notice : notices) own += notice + end;
+  io::detail::DistinctTexts all;
   for (int rank = 0; rank < ranks.size(); ++rank) {
-    std::istringstream lines(ranks.broadcast(own, rank));
-    for (std::string notice; std::getline(lines, notice);) {
-      if (std::find(all.begin(), all.end(), notice) == all.end()) all.push_back(notice);
-    }
+    std::istringstream from(ranks.broadcast(own, rank));
+    for (std::string notice; std::getline(from, notice, end);) all.add(notice);
   }
-  notices = std::move(all);
+  notices = all.take();
 }
 
 /// Adds a coordinate in the type that points of all ranks have.
@@ -269,7 +265,7 @@ SharedInput read_pieces(const Ranks& ranks, const InputOptions& input, const io:
               pieces.cell_ids.empty() ? part_of(ids, points, simplices) : part_of(ids, points, simplices, cell_ids);
         },
         mesh.points);
-    shared.field = outputs::select_field(mesh, input.read.array);
+    shared.field = select_field(mesh, input);
     shared.order = outputs::order_array(mesh, shared.field);
     shared.has_order = shared.order.name != shared.field.name;
     shared.has_ids =

@@ -79,7 +79,7 @@ void take_file(const InputOptions& input, SharedInput& shared, std::optional<Gri
                                                [&](Offset t) { return cells[t]; });
   }
   shared.is_in_float = dataset.points.index() == 0;
-  shared.field = outputs::select_field(dataset, input.read.array);
+  shared.field = select_field(dataset, input);
   shared.order = outputs::order_values(dataset, shared.field, vertices);
   const std::string contradiction = outputs::contradiction_in(dataset, shared.field, vertices);
   shared.arrays = std::move(dataset.arrays);
@@ -249,6 +249,7 @@ FieldOnMesh read_on_ranks(const InputOptions& from, int capacity, const WantedOf
   }
   input.part = {};
   begin_step("ordering the vertices");
+  const bool is_rounded = outputs::is_rounded(input.field);
   std::string note;
   if (input.has_order) note = note_of_order(mesh, held_values(mesh, input.order), held_values(mesh, input.field));
   const VertexOrder order = order_by(mesh, input.order);
@@ -266,7 +267,7 @@ FieldOnMesh read_on_ranks(const InputOptions& from, int capacity, const WantedOf
   } else if (wanted.values) {
     field = held_values(mesh, input.field);
   }
-  return {std::move(dataset), mesh, std::move(field), order, input.has_ids, values, note};
+  return {std::move(dataset), mesh, std::move(field), order, input.has_ids, values, is_rounded, note};
 }
 
 }  // namespace gale::app

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include <gale/export.hpp>
 #include <gale/io/bytes/values.hpp>
 #include <gale/io/cells/cells.hpp>
 
@@ -42,8 +43,8 @@ ArrayKind kind_of(const PointArray& array);
 
 /// Arrays by their kinds. Of two alike the first counts. The arrays must stay.
 using ArraysByKind = std::map<ArrayKind, PointArray*>;
-ArraysByKind by_kind(std::vector<PointArray>& arrays);
-PointArray* find_alike(const ArraysByKind& arrays, const PointArray& array);
+GALE_EXPORT ArraysByKind by_kind(std::vector<PointArray>& arrays);
+GALE_EXPORT PointArray* find_alike(const ArraysByKind& arrays, const PointArray& array);
 
 /// Texts in the order in which they come, each once.
 class DistinctTexts {
@@ -63,7 +64,7 @@ class DistinctTexts {
 };
 
 /// The notice about a point array that is left out as not all pieces have it.
-std::string note_missing(const PointArray& array);
+GALE_EXPORT std::string note_missing(const PointArray& array);
 
 /// Calls visit(cell, point) for each point that the cells from `first` on name: what polyhedra have besides are counts.
 /// Cells may be unchecked: it ends where one leaves the connectivity.

@@ -156,9 +156,10 @@ std::optional<std::uint64_t> bytes_to_skip(const TextHeader& header, bool is_raw
   return bytes == -1 ? std::nullopt : std::optional(static_cast<std::uint64_t>(bytes));
 }
 
-/// Where the last bytes of a file begin.
-std::uint64_t begin_of_last(std::uint64_t bytes, const InputFile& data) {
-  if (bytes > data.size()) damaged("its file '", data.path(), "' has ", data.size(), " bytes, not ", bytes);
+/// Where the last bytes of a file begin, which come behind others.
+std::uint64_t begin_of_last(std::uint64_t bytes, const InputFile& data, std::uint64_t behind) {
+  if (bytes > data.size() - behind)
+    damaged("its file '", data.path(), "' has ", data.size() - behind, " bytes of values, not ", bytes);
   return data.size() - bytes;
 }
 
@@ -178,7 +179,7 @@ PointArray::Values read_data(const InputFile& file, const TextHeader& header, co
     const std::uint64_t bytes = volume.bytes() / paths.size();
     const auto begin = [&](const InputFile& data) {
       const std::uint64_t behind_lines = skip_lines(data, 0, header);
-      return skipped ? behind_lines + *skipped : begin_of_last(bytes, data);
+      return skipped ? behind_lines + *skipped : begin_of_last(bytes, data, behind_lines);
     };
     FileSequence source(paths, begin, bytes);
     return volume.read(source);
@@ -187,7 +188,7 @@ PointArray::Values read_data(const InputFile& file, const TextHeader& header, co
   if (!paths.empty()) other = open_input(paths[0]);
   const InputFile& data = other ? *other : file;
   const std::uint64_t behind_lines = skip_lines(data, other ? 0 : header.end, header);
-  if (!skipped) return volume.read(data, begin_of_last(volume.bytes(), data), Packing::raw);
+  if (!skipped) return volume.read(data, begin_of_last(volume.bytes(), data, behind_lines), Packing::raw);
   return volume.read(data, behind_lines, text ? Packing::text : zipped ? Packing::compressed : Packing::raw, *skipped);
 }
 

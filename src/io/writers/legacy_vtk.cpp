@@ -45,8 +45,8 @@ void write_data(OutputFile& file, const std::string& keyword, const std::string&
     const std::string name = as_word(array.name);
     constexpr std::size_t longest = 255;  // of the words that VTK reads
     if (name.size() > longest)
-      refuse("the array '", printable(array.name), "' has a name of ", name.size(), " bytes, and legacy VTK has ",
-             longest, " at most");
+      refuse("the array '", printable(array.name), "' has a name that takes ", name.size(),
+             " bytes, and legacy VTK has ", longest, " at most");
     file.write(text_of(name, " ", array.components, " ", rows, " ", name_in(legacy_types, array.type), "\n"));
     write_values(file, array);
   }
