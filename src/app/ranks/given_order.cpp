@@ -1,10 +1,10 @@
-#include <algorithm>
 #include <cstring>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include <gale/app/ranks/shared_input.hpp>
+#include <gale/base/sort.hpp>
 #include <gale/mesh/exchange/entries_by_rank.hpp>
 #include <gale/mesh/exchange/messages.hpp>
 #include <gale/mesh/exchange/places.hpp>
@@ -74,8 +74,12 @@ std::string contradiction_on_ranks(const Mesh& mesh, const io::PointArray& order
       ranks, "GALE::placed_values", static_cast<Offset>(own.size()),
       [&](Id i) { return static_cast<int>(own[i].place / at_once); }, [&](Id i) { return own[i]; });
   const auto received = detail::exchange_packed(ranks, "GALE::received_values", sent);
-  std::vector<PlacedValue> placed(received.entries.data(), received.entries.data() + received.count());
-  std::sort(placed.begin(), placed.end(), [](const auto& a, const auto& b) { return a.place < b.place; });
+  std::vector<PlacedValue> placed;
+  detail::together(ranks, [&] {
+    placed.assign(received.entries.data(), received.entries.data() + received.count());
+    parallel_sort("GALE::sort_placed", placed.begin(), placed.end(),
+                  [](const auto& a, const auto& b) { return a.place < b.place; });
+  });
   // The one before a rank's first: places are on the first ranks, so that no rank between has none.
   const PlacedValue last = placed.empty() ? PlacedValue() : placed.back();
   const std::vector<std::int64_t> vertices = ranks.all(last.vertex), bits = ranks.all(last.bits);
