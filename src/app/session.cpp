@@ -235,10 +235,9 @@ FieldOnMesh Session::read_field(const SegmentationOptions& segmentation, Keep ke
   const Mesh mesh = encode(dataset, segmentation, keep);
   const Stopwatch watch(report_.seconds.initialize);
   begin_step("ordering the vertices");
-  const VertexOrder order = outputs::order_of(mesh, dataset, field);
-  if (const std::string contradiction = outputs::contradiction_in(dataset, field, mesh.vertices());
-      !contradiction.empty())
-    note({contradiction});
+  std::string contradiction;
+  const VertexOrder order = outputs::order_of(mesh, dataset, field, &contradiction);
+  if (!contradiction.empty()) note({contradiction});
   return {std::move(dataset), mesh, std::move(field), order};
 }
 

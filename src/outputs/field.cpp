@@ -163,21 +163,18 @@ const io::PointArray& order_array(const io::Dataset& dataset, const io::PointArr
   return order == nullptr || order->components != 1 ? field : *order;
 }
 
-const io::PointArray& order_values(const io::Dataset& dataset, const io::PointArray& field, std::size_t vertices) {
+const io::PointArray& order_values(const io::Dataset& dataset, const io::PointArray& field, std::size_t vertices,
+                                   std::string* note) {
   const io::PointArray& order = order_array(dataset, field);
-  if (&order != &field) vertices_in_order(order, vertices);
-  return order;
-}
-
-std::string contradiction_in(const io::Dataset& dataset, const io::PointArray& field, std::size_t vertices) {
-  const io::PointArray& order = order_array(dataset, field);
-  if (&order == &field) return {};
+  if (&order == &field) return field;
   const std::vector<Id> sorted = vertices_in_order(order, vertices);
+  if (note == nullptr) return order;
   const Offset count = static_cast<Offset>(vertices);
   const Offset bad = reduce_min("GALE::descents", HostExecutionSpace(), count, count, [&](Offset place) {
     return place > 0 && value_at(field, sorted[place]) < value_at(field, sorted[place - 1]) ? place : count;
   });
-  return bad == count ? "" : contradiction(field.name, sorted[bad], sorted[bad - 1]);
+  if (bad < count) *note = contradiction(field.name, sorted[bad], sorted[bad - 1]);
+  return order;
 }
 
 Mesh mesh_of(const io::Dataset& dataset, const Segmentation& segmentation) {
@@ -194,9 +191,9 @@ bool is_mesh_of(const Mesh& mesh, const io::Dataset& dataset) {
                                : has_cells<3>(mesh, dataset, dataset.triangles.data());
 }
 
-VertexOrder order_of(const Mesh& mesh, const io::Dataset& dataset, const io::PointArray& field) {
+VertexOrder order_of(const Mesh& mesh, const io::Dataset& dataset, const io::PointArray& field, std::string* note) {
   return std::visit([&](const auto& values) { return VertexOrder(mesh, values.data(), values.size()); },
-                    order_values(dataset, field, mesh.vertices()).values);
+                    order_values(dataset, field, mesh.vertices(), note).values);
 }
 
 }  // namespace gale::outputs

@@ -54,19 +54,18 @@ GALE_EXPORT bool is_rounded(const io::PointArray& field);
 /// field NAME, that one. Refers to either.
 GALE_EXPORT const io::PointArray& order_array(const io::Dataset& dataset, const io::PointArray& field);
 
-/// What orders so many vertices: their order_array. Throws as order_of does but for NaN.
+/// What orders so many vertices: their order_array. Throws as order_of does but for NaN. `note` is told where that
+/// contradicts the field.
 GALE_EXPORT const io::PointArray& order_values(const io::Dataset& dataset, const io::PointArray& field,
-                                               std::size_t vertices);
+                                               std::size_t vertices, std::string* note = nullptr);
 
 /// A note for a field NAME whose NAME_Order has a vertex right after one with a higher value.
 GALE_EXPORT std::string contradiction(const std::string& field, GlobalId lower, GlobalId before);
 
-/// The note for the first such vertex of a dataset; empty if there is none. Throws as order_values does.
-GALE_EXPORT std::string contradiction_in(const io::Dataset& dataset, const io::PointArray& field, std::size_t vertices);
-
 /// The order of the field's values; or, where the dataset has an array NAME_Order of one component beside the field
-/// NAME, that order, whatever the values. Throws gale::Error, with array and vertex, if NAME_Order isn't a permutation
-/// of 0 to vertices-1, and as `VertexOrder` does.
-GALE_EXPORT VertexOrder order_of(const Mesh& mesh, const io::Dataset& dataset, const io::PointArray& field);
+/// NAME, that order, whatever the values: `note` is told of the first vertex that contradicts it. Throws gale::Error,
+/// with array and vertex, if NAME_Order isn't a permutation of 0 to vertices-1, and as `VertexOrder` does.
+GALE_EXPORT VertexOrder order_of(const Mesh& mesh, const io::Dataset& dataset, const io::PointArray& field,
+                                 std::string* note = nullptr);
 
 }  // namespace gale::outputs

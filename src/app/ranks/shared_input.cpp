@@ -80,8 +80,8 @@ void take_file(const InputOptions& input, SharedInput& shared, std::optional<Gri
   }
   shared.is_in_float = dataset.points.index() == 0;
   shared.field = select_field(dataset, input);
-  shared.order = outputs::order_values(dataset, shared.field, vertices);
-  const std::string contradiction = outputs::contradiction_in(dataset, shared.field, vertices);
+  std::string contradiction;
+  shared.order = outputs::order_values(dataset, shared.field, vertices, &contradiction);
   shared.arrays = std::move(dataset.arrays);
   shared.notices = std::move(dataset.notices);
   if (!contradiction.empty()) shared.notices.push_back(contradiction);
@@ -251,7 +251,11 @@ FieldOnMesh read_on_ranks(const InputOptions& from, int capacity, const WantedOf
   begin_step("ordering the vertices");
   const bool is_rounded = outputs::is_rounded(input.field);
   std::string note;
-  if (input.has_order) note = note_of_order(mesh, held_values(mesh, input.order), held_values(mesh, input.field));
+  std::optional<io::PointArray> held;
+  if (input.has_order) {
+    held = held_values(mesh, input.field);
+    note = note_of_order(mesh, held_values(mesh, input.order), *held);
+  }
   const VertexOrder order = order_by(mesh, input.order);
   io::PointArray field{input.field.name, 1, {}};
   io::Dataset dataset;
@@ -265,7 +269,7 @@ FieldOnMesh read_on_ranks(const InputOptions& from, int capacity, const WantedOf
     field = std::move(input.field);
     values = outputs::ValuesOf::owned_vertices;
   } else if (wanted.values) {
-    field = held_values(mesh, input.field);
+    field = held ? std::move(*held) : held_values(mesh, input.field);
   }
   return {std::move(dataset), mesh, std::move(field), order, input.has_ids, values, is_rounded, note};
 }
