@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 void write_to(const io::AtomicFile& file, const io::PointSet& points) { io::write_points(file, points); }
 void write_to(const io::AtomicFile& file, const io::Surface& surface) { io::write_surface(file, surface); }
-void write_to(const io::AtomicFile& file, const io::MeshPiece& piece) { io::write_piece(file, piece); }
+void write_to(const io::AtomicFile& file, const io::Dataset& piece) { io::write_piece(file, piece); }
 
 /// By rank the least, the median and the most.
 nlohmann::ordered_json spread_of(std::vector<std::int64_t> by_rank, double unit) {
@@ -321,7 +321,7 @@ void Session::write_one(const std::string& path, const Result& result) {
 
 template void Session::write_one(const std::string&, const io::PointSet&);
 template void Session::write_one(const std::string&, const io::Surface&);
-template void Session::write_one(const std::string&, const io::MeshPiece&);
+template void Session::write_one(const std::string&, const io::Dataset&);
 
 void Session::finish(const Structure* structure) {
   if (part_) {

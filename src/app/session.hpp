@@ -143,7 +143,7 @@ class Session {
   void write_mesh(const std::string& path, const FieldOnMesh& on, const Make& make) {
     if (on.mesh.is_part()) {
       write_result(path, [&] {
-        io::MeshPiece piece;
+        io::Dataset piece;
         detail::together(ranks_, [&] { piece = outputs::piece_of(on.order, on.dataset, make(), on.has_ids); });
         return piece;
       });

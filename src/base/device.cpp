@@ -31,17 +31,6 @@ std::uint64_t differing_bits(const WorkerSpace& space, const Array<std::uint64_t
   return all;
 }
 
-/// `algorithm(workspace, bytes, stream)` calls one of CUB's, as they all want to be called: once for the size of the
-/// workspace, once for the work.
-template <class Algorithm>
-void run_cub(const WorkerSpace& space, const char* label, const Algorithm& algorithm) {
-  const std::string what = std::string(label) + " on the device";
-  std::size_t bytes = 0;
-  require_success(algorithm(nullptr, bytes, space.cuda_stream()), what);
-  const auto workspace = allocate<Array<char, WorkerMemory>>(label, bytes);
-  require_success(algorithm(workspace.data(), bytes, space.cuda_stream()), what);
-}
-
 }  // namespace
 
 void use_device() { cudaSetDevice(WorkerSpace().cuda_device()); }
@@ -123,10 +112,15 @@ void detail::sort_rows_on_device(const WorkerSpace& space, const char* label, co
   const auto rows = static_cast<Offset>(begin.extent(0)) - 1;
   const auto other = allocate<Array<Id, WorkerMemory>>("GALE::sort_rows", values.extent(0));
   cub::DoubleBuffer<Id> buffer(values.data(), other.data());
-  run_cub(space, label, [&](void* workspace, std::size_t& bytes, cudaStream_t stream) {
-    return cub::DeviceSegmentedSort::SortKeys(workspace, bytes, buffer, static_cast<Offset>(values.extent(0)), rows,
-                                              begin.data(), begin.data() + 1, stream);
-  });
+  const auto sort = [&](void* workspace, std::size_t& bytes) {
+    require_success(cub::DeviceSegmentedSort::SortKeys(workspace, bytes, buffer, static_cast<Offset>(values.extent(0)),
+                                                       rows, begin.data(), begin.data() + 1, space.cuda_stream()),
+                    std::string(label) + " on the device");
+  };
+  std::size_t bytes = 0;
+  sort(nullptr, bytes);
+  const auto workspace = allocate<Array<char, WorkerMemory>>(label, bytes);
+  sort(workspace.data(), bytes);
   if (buffer.Current() != values.data()) Kokkos::deep_copy(space, values, other);
 }
 

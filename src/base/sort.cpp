@@ -187,14 +187,6 @@ struct IdEntries {
   KOKKOS_FUNCTION void store(Offset i, Id id) const { ids[i] = id; }
 };
 
-template <class Index>
-void sort_rows_on_host(const char* label, const Csr<Id, HostMemory, Index>& rows) {
-  parallel_for(label, HostExecutionSpace(), rows.rows(), [&](Offset i) {
-    const Span<Id> row = rows.row(i);
-    if (!std::is_sorted(row.begin(), row.end())) std::sort(row.begin(), row.end());
-  });
-}
-
 }  // namespace
 
 template <class Space, class Index>
@@ -214,7 +206,10 @@ void sort_rows(const Space& space, const char* label, const Csr<Id, MemoryOf<Spa
         label, space,
         detail::RankRows<Index, IdEntries>{{rows.entries.data()}, begin.data(), count, rows_of_team, most_ranked});
   } else {
-    sort_rows_on_host(label, rows);
+    parallel_for(label, space, count, [&](Offset i) {
+      const Span<Id> row = rows.row(i);
+      if (!std::is_sorted(row.begin(), row.end())) std::sort(row.begin(), row.end());
+    });
   }
 }
 

@@ -71,11 +71,9 @@ const std::vector<Format>& formats() {
 }
 
 const Format* format_of(const std::string& path) {
-  const std::string lower = detail::lower_case(path);
   for (const Format& format : formats()) {
     for (const std::string& ending : detail::words_of(format.extensions)) {
-      if (lower.size() > ending.size() && lower.compare(lower.size() - ending.size(), ending.size(), ending) == 0)
-        return &format;
+      if (detail::has_extension(path, ending)) return &format;
     }
   }
   return nullptr;

@@ -131,11 +131,11 @@ void write_mesh(const Target& to, const Dataset& mesh, const std::vector<PointAr
   });
 }
 
-void write_piece(const Target& to, const MeshPiece& piece) {
+void write_piece(const Target& to, const Dataset& piece) {
   write_as(to, written_pieces, "a piece of a mesh", [&](const AtomicFile& file) {
-    check_arrays(points_of(piece.mesh.points), piece.mesh.arrays);
-    check_arrays(piece.mesh.cells(), piece.cell_arrays, cells_of(piece.mesh));
-    write_content(file, detail::content_of(piece.mesh, {}, piece.cell_arrays));
+    check_arrays(points_of(piece.points), piece.arrays);
+    check_arrays(piece.cells(), piece.cell_arrays, cells_of(piece));
+    write_content(file, detail::content_of(piece, {}, piece.cell_arrays));
   });
 }
 
@@ -147,8 +147,8 @@ void write_pieces(const AtomicFile& file, const std::vector<std::string>& pieces
   write_names(file, pieces, detail::content_of(like));
 }
 
-void write_pieces(const AtomicFile& file, const std::vector<std::string>& pieces, const MeshPiece& like) {
-  write_names(file, pieces, detail::content_of(like.mesh, {}, like.cell_arrays));
+void write_pieces(const AtomicFile& file, const std::vector<std::string>& pieces, const Dataset& like) {
+  write_names(file, pieces, detail::content_of(like, {}, like.cell_arrays));
 }
 
 void write_series(const AtomicFile& file, const std::vector<Step>& steps) {

@@ -39,12 +39,6 @@ inline constexpr const char* global_point_ids = "GlobalPointIds";
 /// The name of the array that has cells' global ids.
 inline constexpr const char* global_cell_ids = "GlobalCellIds";
 
-/// One rank's part of a mesh that lies on several. Its point arrays have GlobalPointIds, its cell arrays GlobalCellIds.
-struct MeshPiece {
-  Dataset mesh;                         ///< the rank's own tetrahedra or triangles, with all their vertices
-  std::vector<PointArray> cell_arrays;  ///< a value for each of these
-};
-
 /// Where something is written: a path, or the temporary file of an AtomicFile, whose path decides then, and which the
 /// caller commits: so several files appear together (`AtomicFiles`).
 class Target {
@@ -85,8 +79,9 @@ GALE_EXPORT void write_lines(const Target& to, const Surface& lines);
 /// not be copied into the mesh first.
 GALE_EXPORT void write_mesh(const Target& to, const Dataset& mesh, const std::vector<PointArray>& more = {});
 
-/// Writes a piece, which may be empty, to a `.vtu`.
-GALE_EXPORT void write_piece(const Target& to, const MeshPiece& piece);
+/// Writes one rank's part of a mesh, which may be empty, to a `.vtu`: its own cells with all their vertices. Its point
+/// arrays have GlobalPointIds, its cell arrays GlobalCellIds.
+GALE_EXPORT void write_piece(const Target& to, const Dataset& piece);
 
 /// Writes a `.pvtp`, or for meshes (below) a `.pvtu`, that names `pieces`, files in the same folder, to the temporary
 /// file of `file`. `like` has the types of coordinates and arrays that each of them has, the arrays in the same order;
@@ -97,7 +92,7 @@ GALE_EXPORT void write_pieces(const AtomicFile& file, const std::vector<std::str
 GALE_EXPORT void write_pieces(const AtomicFile& file, const std::vector<std::string>& pieces, const Surface& like);
 
 /// Writes the `.pvtu` of pieces that are meshes.
-GALE_EXPORT void write_pieces(const AtomicFile& file, const std::vector<std::string>& pieces, const MeshPiece& like);
+GALE_EXPORT void write_pieces(const AtomicFile& file, const std::vector<std::string>& pieces, const Dataset& like);
 
 /// Writes a `.pvd` or a `.series` that names files in the same folder, each with its time, to the temporary file of
 /// `file`. ParaView reads files of XML through a `.pvd`, VTKHDF through a `.vtkhdf.series`.

@@ -50,22 +50,22 @@ io::PointArray array_of_ids(const char* name, const std::vector<Id>& some, const
 
 }  // namespace
 
-io::MeshPiece piece_of(const VertexOrder& order, const io::Dataset& dataset, const std::vector<io::PointArray>& more,
-                       bool has_ids) {
+io::Dataset piece_of(const VertexOrder& order, const io::Dataset& dataset, const std::vector<io::PointArray>& more,
+                     bool has_ids) {
   const Mesh& mesh = order.mesh();
   const SimplicesOfPiece of_piece = simplices_of_piece(order);
   const std::vector<Id>&cells = of_piece.cells, &vertices = of_piece.vertices;
-  io::MeshPiece piece;
-  std::visit([&](const auto& all) { piece.mesh.points = detail::points_at(all, vertices); }, dataset.points);
+  io::Dataset piece;
+  std::visit([&](const auto& all) { piece.points = detail::points_at(all, vertices); }, dataset.points);
   const auto take_cells = [&](const auto& from, auto& to) {
     to = std::decay_t<decltype(to)>("GALE::piece_cells", cells.size());
     for (std::size_t i = 0; i < cells.size(); ++i) {
       for (std::size_t k = 0; k < from.extent(1); ++k) to(i, k) = of_piece.place[from(cells[i], k)];
     }
   };
-  mesh.dimension() == 3 ? take_cells(dataset.tetrahedra, piece.mesh.tetrahedra)
-                        : take_cells(dataset.triangles, piece.mesh.triangles);
-  auto& arrays = piece.mesh.arrays;
+  mesh.dimension() == 3 ? take_cells(dataset.tetrahedra, piece.tetrahedra)
+                        : take_cells(dataset.triangles, piece.triangles);
+  auto& arrays = piece.arrays;
   for (const io::PointArray& array : dataset.arrays) arrays.push_back(io::gather(array, vertices));
   for (const io::PointArray& array : more) arrays.push_back(io::gather(array, vertices));
   std::vector<std::uint8_t> ghosts;

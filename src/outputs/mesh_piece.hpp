@@ -15,7 +15,7 @@ namespace gale::outputs {
 /// Then vtkGhostType (uint8), which is 1 (a duplicate) for vertices of other ranks, GlobalPointIds and GlobalCellIds
 /// (int64), the global ids of vertices and of tetrahedra or triangles, or of the cells that these are of, where
 /// `dataset` has those. `has_ids`: the dataset brings GlobalPointIds of its own.
-GALE_EXPORT io::MeshPiece piece_of(const VertexOrder& order, const io::Dataset& dataset,
-                                   const std::vector<io::PointArray>& more, bool has_ids);
+GALE_EXPORT io::Dataset piece_of(const VertexOrder& order, const io::Dataset& dataset,
+                                 const std::vector<io::PointArray>& more, bool has_ids);
 
 }  // namespace gale::outputs

@@ -177,17 +177,16 @@ TEST_F(VtkReads, legacy_meshes_of_triangles) {
 }
 
 TEST_F(VtkReads, pieces_of_triangles) {
-  MeshPiece piece{plane_with_cells(), {}};
-  piece.cell_arrays = std::move(piece.mesh.cell_arrays);
+  const Dataset piece = plane_with_cells();
   AtomicFiles files;
   write_piece(files.add(folder / "all_0.vtu"), piece);
   write_pieces(files.add(folder / "all.pvtu"), {"all_0.vtu"}, piece);
   files.commit();
   const auto found = read_by<vtkXMLPUnstructuredGridReader>("all.pvtu");
-  ASSERT_EQ(found->GetNumberOfCells(), static_cast<vtkIdType>(piece.mesh.triangles.extent(0)));
+  ASSERT_EQ(found->GetNumberOfCells(), static_cast<vtkIdType>(piece.triangles.extent(0)));
   expect_cell(found, 0, VTK_TRIANGLE, {0, 1, 121});
   const Dataset mesh = read(folder / "all.pvtu");
-  EXPECT_EQ(test::triangles_of(mesh), test::triangles_of(piece.mesh));
+  EXPECT_EQ(test::triangles_of(mesh), test::triangles_of(piece));
 }
 
 TEST_P(VtkReadsEncoded, empty_meshes) {
@@ -235,23 +234,23 @@ TEST_P(VtkReadsEncoded, lines_of_a_grid) {
 
 /// A tetrahedron a piece, with two vertices in common, and an empty piece between them.
 TEST_F(VtkReads, meshes_in_pieces) {
-  std::vector<MeshPiece> pieces(3);
+  std::vector<Dataset> pieces(3);
   for (const int k : {0, 2}) {
-    Dataset& mesh = pieces[k].mesh;
+    Dataset& mesh = pieces[k];
     const Dataset::Points<double> points("points", 4);
     for (int i = 0; i < 4; ++i) points(i, i % 3) = k + i;
     mesh.points = points;
     mesh.tetrahedra = decltype(mesh.tetrahedra)("tetrahedra", 1);
     for (int corner = 0; corner < 4; ++corner) mesh.tetrahedra(0, corner) = 3 - corner;
   }
-  pieces[1].mesh.points = Dataset::Points<double>("points", 0);
+  pieces[1].points = Dataset::Points<double>("points", 0);
   const std::int64_t far = std::int64_t(1) << 40;
   const std::vector<std::vector<std::int64_t>> ids = {{0, 1, 2, far}, {}, {2, far, far + 1, far + 2}};
   AtomicFiles files;
   for (int k = 0; k < 3; ++k) {
     const std::vector<std::uint8_t> ghosts =
         k == 2 ? std::vector<std::uint8_t>{1, 1, 0, 0} : std::vector<std::uint8_t>(ids[k].size());
-    pieces[k].mesh.arrays = {{"vtkGhostType", 1, ghosts}, {global_point_ids, 1, ids[k]}};
+    pieces[k].arrays = {{"vtkGhostType", 1, ghosts}, {global_point_ids, 1, ids[k]}};
     pieces[k].cell_arrays = {{global_cell_ids, 1, std::vector<std::int64_t>(k == 1 ? 0 : 1, far + k)}};
     write_piece(files.add(folder / ("all_" + std::to_string(k) + ".vtu")), pieces[k]);
   }

@@ -6,6 +6,7 @@
 #include <gale/base/error.hpp>
 #include <gale/base/memory.hpp>
 #include <gale/base/parallel.hpp>
+#include <gale/base/stop.hpp>
 #include <gale/base/types.hpp>
 #include <gale/io/bytes/text.hpp>
 #include <gale/io/bytes/values.hpp>
@@ -62,10 +63,6 @@ void refuse_other_cells(const CountedCells& cells, int dimension) {
     refuse("it has ", others, ", and ", dimension == 3 ? "tetrahedra" : "triangles", " alone are wanted");
 }
 
-std::size_t point_count_of(const Dataset& mesh) {
-  return std::visit([](const auto& points) { return points.extent(0); }, mesh.points);
-}
-
 /// What cells of one kind of index are split into. Takes the connectivity, and frees it.
 template <int Corners, class Index>
 SplitCells<Corners, HostMemory> split_by(const CountedCells& counted, PointArray::Values& connectivity,
@@ -84,7 +81,7 @@ SplitCells<Corners, HostMemory> split_by(const CountedCells& counted, PointArray
 template <int Corners, class Simplices>
 std::vector<std::string> split(const CountedCells& counted, PointArray::Values& connectivity,
                                const Array<const GlobalId, HostMemory>& ids, Simplices& simplices, Dataset& to) {
-  const std::size_t points = point_count_of(to);
+  const auto points = static_cast<std::size_t>(to.vertices());
   const bool is_long = std::holds_alternative<std::vector<std::uint32_t>>(connectivity) ||
                        std::holds_alternative<std::vector<std::int64_t>>(connectivity) ||
                        std::holds_alternative<std::vector<std::uint64_t>>(connectivity);
@@ -112,16 +109,51 @@ Dataset::Points<Coordinate> to_points(const PointArray::Values& values) {
   return points;
 }
 
+template <class T>
+PointArray::Values interleaved_as(const std::vector<PointArray::Values>& axes, std::size_t points) {
+  std::vector<T> xyz(3 * points);
+  for (std::size_t d = 0; d < axes.size(); ++d) {
+    std::visit(
+        [&](const auto& from) {
+          for (std::size_t k = 0; k < points; ++k) xyz[3 * k + d] = static_cast<T>(from[k]);
+        },
+        axes[d]);
+  }
+  return xyz;
+}
+
 }  // namespace
+
+PointArray::Values interleaved(const std::vector<PointArray::Values>& axes, std::size_t points) {
+  const bool are_float = std::all_of(axes.begin(), axes.end(), [](const PointArray::Values& axis) {
+    return std::holds_alternative<std::vector<float>>(axis);
+  });
+  return are_float ? interleaved_as<float>(axes, points) : interleaved_as<double>(axes, points);
+}
+
+PointArray::Values points_along(const std::array<std::vector<double>, 3>& axes, bool are_float) {
+  const auto placed = [&](auto coordinate) -> PointArray::Values {
+    std::vector<decltype(coordinate)> points;
+    points.reserve(3 * axes[0].size() * axes[1].size() * axes[2].size());
+    for (const double z : axes[2]) {
+      for (const double y : axes[1]) {
+        gale::detail::stop_if_asked();
+        for (const double x : axes[0]) {
+          for (const double at : {x, y, z}) points.push_back(static_cast<decltype(coordinate)>(at));
+        }
+      }
+    }
+    return points;
+  };
+  return are_float ? placed(float()) : placed(double());
+}
 
 std::string note_array(const std::string& name, const std::string& why) {
   return "left out the point array '" + name + "': " + why;
 }
 
 std::string note_cell_arrays(const std::vector<std::string>& names) {
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "'" : ", '") + name + "'";
-  return "left out the cell arrays " + list;
+  return "left out the cell arrays '" + joined(names, "', '") + "'";
 }
 
 std::vector<std::string> split_into(Dataset& to, FileCells& cells, const Array<const GlobalId, HostMemory>& ids,

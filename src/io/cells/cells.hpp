@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -25,6 +27,13 @@ struct MeshParts {
   std::vector<PointArray> arrays;
   std::vector<std::string> notices;
 };
+
+/// xyz of each of so many points, whose coordinates are one array for each of at most three axes, 0 along others; float
+/// if all these are, else double.
+PointArray::Values interleaved(const std::vector<PointArray::Values>& axes, std::size_t points);
+
+/// xyz of the points of a rectilinear grid with these places along its axes, float or double.
+PointArray::Values points_along(const std::array<std::vector<double>, 3>& axes, bool are_float);
 
 /// The mesh of the cells, in their order: tetrahedra, and what split_cells() makes of other 3D cells; where there are
 /// none, triangles, and what split_polygons() makes of other 2D cells. Checks all that it indexes by. Throws

@@ -156,20 +156,6 @@ void require_numbers(const FileArray& array, bool whole) {
     damaged("its '", array.name, "' has values of type ", (array.is_text ? "text" : name_of(*array.type)));
 }
 
-/// The coordinates, which are float or double, point by point.
-template <class T>
-PointArray::Values interleaved(const std::vector<PointArray::Values>& axes, std::uint64_t points) {
-  std::vector<T> xyz(3 * points);
-  for (std::size_t d = 0; d < axes.size(); ++d) {
-    std::visit(
-        [&](const auto& from) {
-          for (std::uint64_t k = 0; k < points; ++k) xyz[3 * k + d] = static_cast<T>(from[k]);
-        },
-        axes[d]);
-  }
-  return xyz;
-}
-
 PointArray::Values read_points(ArrayFile& file, std::uint64_t dimensions, std::uint64_t points) {
   std::vector<PointArray::Values> axes;
   if (points > 0 && file.find("coordx") == nullptr && file.find("coord") != nullptr) {
@@ -192,10 +178,7 @@ PointArray::Values read_points(ArrayFile& file, std::uint64_t dimensions, std::u
       axes.push_back(file.read(axis));
     }
   }
-  const bool is_float = std::all_of(axes.begin(), axes.end(), [](const PointArray::Values& axis) {
-    return std::holds_alternative<std::vector<float>>(axis);
-  });
-  return is_float ? interleaved<float>(axes, points) : interleaved<double>(axes, points);
+  return interleaved(axes, points);
 }
 
 /// The numbers of the blocks in the order of their ids, as VTK has them.

@@ -11,10 +11,6 @@ namespace {
 
 constexpr std::uint32_t longest_name = 65536;
 
-std::string joined(const std::string& group, const std::string& name) {
-  return group.empty() ? name : group + "/" + name;
-}
-
 using Places = std::vector<std::uint64_t>;
 
 /// Copies those values of a chunk which are wanted: the rows from `first_row` on that end at `ends`. `first` is the
@@ -148,7 +144,7 @@ bool Hdf5File::open_group(const std::string& path, std::vector<std::string>* nam
   for (auto rest = program_.receive<std::uint64_t>(); rest > 0; --rest) {
     const std::string name = program_.receive_text(longest_name);
     StoredDataset dataset = receive_dataset();
-    dataset.name = joined(path, name);
+    dataset.name = path.empty() ? name : path + "/" + name;
     datasets_[dataset.name] = std::move(dataset);
     if (names != nullptr) names->push_back(name);
   }

@@ -1,7 +1,6 @@
 #include <cmath>
 #include <limits>
 
-#include <gale/base/stop.hpp>
 #include <gale/io/bytes/text.hpp>
 #include <gale/io/cells/cells.hpp>
 #include <gale/io/cells/surface_cells.hpp>
@@ -163,22 +162,10 @@ void require_grid_points(const Sections& of, bool rectilinear) {
 }
 
 void add_grid_points(Sections& to) {
-  const auto at = [](const PointArray::Values& values, std::size_t k) {
-    return std::visit([k](const auto& v) { return static_cast<double>(v[k]); }, values);
-  };
-  std::vector<double> points;
-  points.reserve(3 * static_cast<std::size_t>(to.points));
-  for (std::int64_t z = 0; z < to.dimensions[2]; ++z) {
-    for (std::int64_t y = 0; y < to.dimensions[1]; ++y) {
-      gale::detail::stop_if_asked();
-      for (std::int64_t x = 0; x < to.dimensions[0]; ++x) {
-        points.push_back(at(to.coordinates[0], static_cast<std::size_t>(x)));
-        points.push_back(at(to.coordinates[1], static_cast<std::size_t>(y)));
-        points.push_back(at(to.coordinates[2], static_cast<std::size_t>(z)));
-      }
-    }
-  }
-  to.mesh.points = std::move(points);
+  std::array<std::vector<double>, 3> axes;
+  for (std::size_t d = 0; d < 3; ++d)
+    std::visit([&](const auto& places) { axes[d].assign(places.begin(), places.end()); }, to.coordinates[d]);
+  to.mesh.points = points_along(axes, false);
 }
 
 }  // namespace

@@ -13,23 +13,9 @@
 namespace gale::io::detail {
 namespace {
 
-/// The coordinates, point by point.
-template <class T>
-PointArray::Values interleaved(const std::array<PointArray::Values, 3>& axes) {
-  std::vector<T> xyz(3 * count_of(axes[0]));
-  for (std::size_t d = 0; d < 3; ++d) {
-    std::visit(
-        [&](const auto& from) {
-          for (std::size_t k = 0; k < from.size(); ++k) xyz[3 * k + d] = static_cast<T>(from[k]);
-        },
-        axes[d]);
-  }
-  return xyz;
-}
-
 void take_vertices(PlyFile& file, const PlyElement& vertex, MeshParts& parts) {
   PlyColumns columns = file.read(vertex, "");
-  std::array<PointArray::Values, 3> axes;
+  std::vector<PointArray::Values> axes(3);
   std::array<std::size_t, 3> places{};
   for (std::size_t d = 0; d < 3; ++d) {
     const std::string name(1, "xyz"[d]);
@@ -38,10 +24,7 @@ void take_vertices(PlyFile& file, const PlyElement& vertex, MeshParts& parts) {
     places[d] = *found;
     axes[d] = std::move(columns.values[*found]);
   }
-  const bool are_float = std::all_of(axes.begin(), axes.end(), [](const PointArray::Values& axis) {
-    return std::holds_alternative<std::vector<float>>(axis);
-  });
-  parts.points = are_float ? interleaved<float>(axes) : interleaved<double>(axes);
+  parts.points = interleaved(axes, count_of(axes[0]));
   for (std::size_t p = 0; p < vertex.properties.size(); ++p) {
     const PlyProperty& property = vertex.properties[p];
     if (std::find(places.begin(), places.end(), p) != places.end()) continue;

@@ -2,7 +2,6 @@
 #include <array>
 #include <limits>
 
-#include <gale/base/stop.hpp>
 #include <gale/io/bytes/text.hpp>
 #include <gale/io/bytes/values.hpp>
 #include <gale/io/cells/cells.hpp>
@@ -96,21 +95,6 @@ std::vector<double> axis_of(const GridFile& grid, int axis, bool& is_float) {
   return all;
 }
 
-template <class T>
-std::vector<T> points_along(const std::array<std::vector<double>, 3>& axes) {
-  std::vector<T> points;
-  points.reserve(3 * axes[0].size() * axes[1].size() * axes[2].size());
-  for (const double z : axes[2]) {
-    gale::detail::stop_if_asked();
-    for (const double y : axes[1]) {
-      for (const double x : axes[0]) {
-        for (const double coordinate : {x, y, z}) points.push_back(static_cast<T>(coordinate));
-      }
-    }
-  }
-  return points;
-}
-
 }  // namespace
 
 Content read_vti(const InputFile& input, const ReadOptions&) {
@@ -152,11 +136,7 @@ Content read_vtr(const InputFile& input, const ReadOptions& options) {
   const std::array<std::vector<double>, 3> axes = {axis_of(grid, 0, is_float), axis_of(grid, 1, is_float),
                                                    axis_of(grid, 2, is_float)};
   MeshParts parts = parts_of(grid, cell_type::voxel);
-  if (is_float) {
-    parts.points = points_along<float>(axes);
-  } else {
-    parts.points = points_along<double>(axes);
-  }
+  parts.points = points_along(axes, is_float);
   return to_mesh(parts, options);
 }
 

@@ -96,12 +96,6 @@ struct SegmentKernel<Memory>::Any {
     kernel = star;
   }
 
-  /// Calls use(kernel) with what it is.
-  template <class Use>
-  auto visit(const Use& use) {
-    return std::visit(use, kernel);
-  }
-
   void set(const KernelTask& task) {
     std::visit(
         [&task](auto& one) {
@@ -148,20 +142,22 @@ StarSizes SegmentKernel<Memory>::bound(Id segment) const {
 
 template <class Memory>
 std::size_t SegmentKernel<Memory>::scratch_bytes(const StarSizes& sizes, int warps) const {
-  return any_->visit(
-      [&](const auto& kernel) { return gale::scratch_bytes<std::decay_t<decltype(kernel)>>(sizes, warps); });
+  return std::visit(
+      [&](const auto& kernel) { return gale::scratch_bytes<std::decay_t<decltype(kernel)>>(sizes, warps); },
+      any_->kernel);
 }
 
 template <class Memory>
 void SegmentKernel<Memory>::launch(const Space& instance, const KernelTask& task, int teams, TeamShape shape) {
   any_->set(task);
-  any_->visit([&](const auto& kernel) { gale::launch(instance, kernel, teams, shape); });
+  std::visit([&](const auto& kernel) { gale::launch(instance, kernel, teams, shape); }, any_->kernel);
 }
 
 template <class Memory>
 void SegmentKernel<Memory>::run(const KernelTask& task, char* scratch) {
   any_->set(task);
-  if constexpr (!is_device_memory<Memory>) any_->visit([&](const auto& kernel) { kernel(HostTeam(0, scratch)); });
+  if constexpr (!is_device_memory<Memory>)
+    std::visit([&](const auto& kernel) { kernel(HostTeam(0, scratch)); }, any_->kernel);
 }
 
 #define GALE_INSTANTIATE(Space) template class SegmentKernel<MemoryOf<Space>>

@@ -7,6 +7,7 @@
 #include <gale/mesh/mesh.hpp>
 #include <gale/relations/relation.hpp>
 #include <gale/relations/rows.hpp>
+#include <gale/relations/segment_rows.hpp>
 #include <gale/runtime/whole/whole_rows.hpp>
 
 namespace gale::detail {
@@ -35,6 +36,32 @@ struct ExplicitRelations {
   LinkRows links() const {
     const Rows stars = rows(vertex_cells(dimension));
     return {0, stars.count, stars.offsets, link_places.data(), link_width, dimension};
+  }
+
+  /// Rows of the simplices given; those of all lie together, so there is nothing to compute.
+  SegmentRows rows(RelationSet wanted, Id segment, const Intervals& simplices) const {
+    SegmentRows some(segment, simplices);
+    for (const Relation relation : members_of(wanted)) some.set(relation, rows(relation));
+    if (wanted.has_links()) some.set(links());
+    return some;
+  }
+
+  Intervals intervals_of(Id segment) const {
+    Intervals intervals;
+    for (int d = 0; d < 4; ++d) {
+      const auto& begin = segment_begin[d];
+      if (begin.extent(0) != 0) intervals[d] = {begin(segment), begin(segment + 1)};
+    }
+    return intervals;
+  }
+
+  /// All simplices.
+  Intervals intervals() const {
+    Intervals intervals;
+    for (int d = 0; d < 4; ++d) {
+      if (count[d] != no_id) intervals[d] = {0, count[d]};
+    }
+    return intervals;
   }
 };
 

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include <gale/runtime/explicit/explicit_relations.hpp>
 #include <gale/runtime/structure.hpp>
 
 namespace gale {
@@ -30,7 +31,6 @@ class ExplicitStructure : public Structure {
   /// Throws gale::Error if one of those relations has more than 2^31 - 1 entries, naming it and their number, before it
   /// takes memory for them.
   ExplicitStructure(const Mesh& mesh, RelationSet wanted);
-  ~ExplicitStructure() override;
 
   bool keeps_all_rows() const override { return true; }
   std::unique_ptr<Consumer> consumer() override;
@@ -43,9 +43,8 @@ class ExplicitStructure : public Structure {
   std::unique_ptr<Sweep> begin_sweep(RelationSet wanted, int consumers, const SegmentBody& body) override;
 
  private:
-  struct Data;
   class ExplicitConsumer;
-  std::unique_ptr<const Data> data_;
+  const detail::ExplicitRelations all_;
 };
 
 }  // namespace gale
