@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <vector>
 
 #include <gale/base/kokkos.hpp>
 #include <gale/base/types.hpp>
@@ -49,6 +50,13 @@ std::array<T, N> ascending(std::array<T, N> few) {
     }
   }
   return few;
+}
+
+/// The root of one of several trees, each of which is followed by way of its parent, a root by itself. Halves the way
+/// there for those who ask again. On the host.
+inline Id root_of(std::vector<Id>& parents, Id of) {
+  while (parents[of] != of) of = parents[of] = parents[parents[of]];
+  return of;
 }
 
 /// Sorts entries ascending, in place and in n log n time: load(i) is the i-th, store(i, entry) replaces it.

@@ -21,13 +21,11 @@ class SortedKeys {
     while ((highest_ - lowest_) >> shift_ >= (std::uint64_t(1) << bucket_bits)) ++shift_;
     const auto count = static_cast<std::int64_t>(keys.size()),
                buckets = static_cast<std::int64_t>(bucket(highest_)) + 1;
-    const auto copy = allocate<Array<std::uint64_t, HostMemory>>("GALE::sorted_keys", count);
-    std::copy(keys.begin(), keys.end(), copy.data());
     const auto begin = allocate<Array<std::int64_t, HostMemory>>("GALE::sorted_keys_begin", buckets + 1);
     std::fill_n(begin.data(), buckets + 1, count);
     for (std::int64_t i = count; i-- > 0;) begin(bucket(keys[i])) = i;
     for (std::int64_t b = buckets; b-- > 0;) begin(b) = std::min(begin(b), begin(b + 1));
-    keys_ = in_memory<Memory>(copy);
+    keys_ = in_memory<Memory>(array_of("GALE::sorted_keys", keys));
     begin_ = in_memory<Memory>(begin);
   }
 

@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include <gale/mesh/exchange/places.hpp>
 #include <gale/outputs/excerpt.hpp>
 #include <gale/outputs/manifolds.hpp>
@@ -32,8 +30,7 @@ void append_sizes(const Mesh& mesh, const Mirrored<Id>& found, const Labels& ask
       const Id label = manifold(mesh.vertices_in_input()[v]);
       if (label != no_id) all.push_back(label);
     }
-    owned = allocate<Labels>("GALE::owned_labels", all.size());
-    std::copy(all.begin(), all.end(), owned.data());
+    owned = gale::detail::array_of("GALE::owned_labels", all);
   });
   const auto counts = gale::detail::occurrences(mesh.exchange().ranks(), owned, asked);
   sizes.insert(sizes.end(), counts.data(), counts.data() + counts.extent(0));

@@ -40,8 +40,6 @@ double threshold_of(const Persistence& persistence, const io::PointArray& field,
 
 namespace {
 
-bool is_float(const io::PointArray& array) { return std::holds_alternative<std::vector<float>>(array.values); }
-
 io::PointArray::Values positions_of(const io::Dataset& dataset, const std::vector<Id>& vertices) {
   return std::visit(
       [&](const auto& points) -> io::PointArray::Values {
@@ -142,7 +140,7 @@ io::Surface to_lines(const io::Dataset& dataset, const io::PointArray& field, co
   identifiers.resize(persistence.size(), -1);
   types.resize(persistence.size(), -1);
   finite.resize(persistence.size(), 0);
-  if (is_float(field)) {
+  if (std::holds_alternative<std::vector<float>>(field.values)) {
     lines.points = points_of<float>(diagram);
   } else {
     lines.points = points_of<double>(diagram);

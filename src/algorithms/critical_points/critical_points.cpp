@@ -4,7 +4,7 @@
 #include <gale/algorithms/critical_points/vertex_types.hpp>
 #include <gale/algorithms/links/large_link.hpp>
 #include <gale/algorithms/links/link_sweep.hpp>
-#include <gale/algorithms/order/require_mesh.hpp>
+#include <gale/algorithms/order/require.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/transfer.hpp>
 

@@ -35,7 +35,7 @@ void for_each_vertex_of(FoundFor& found, const Visit& visit) {
   visit_all(found.edges, 3, itself);
   visit_all(found.critical_triangles, 3, itself);
   visit_all(found.critical_stars, 3, itself);
-  visit_all(found.cells, 4, [](ReachedCell& cell) { return cell.corners.data(); });
+  visit_all(found.cells, 4, [](ReceivedCell& cell) { return cell.corners.data(); });
 }
 
 /// Takes the i-th lists for all ranks, and joins them.
@@ -69,7 +69,7 @@ void FoundFor::set_cell_steps(std::vector<std::array<Id, 2>> steps, const CellRe
     }
   });
   sort_distinct("GALE::reached_cells", ids);
-  cells = unwritten<ReachedCell>(ids.size());
+  cells = unwritten<ReceivedCell>(ids.size());
   parallel_for("GALE::reached_cells", HostExecutionSpace(), ids.size(), [&](Offset i) {
     const Quad corners = corners_of(ids[i]);
     cells[i] = {simplices.global(ids[i]), {corners.a, corners.b, corners.c, corners.d}};

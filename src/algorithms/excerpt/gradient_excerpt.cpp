@@ -37,21 +37,9 @@ class ExcerptMaker {
 
  private:
   Mesh make_mesh() const {
-    return dimension_ == 3 ? excerpt_mesh(vertices_.ids, cells_.ids, corners<4>())
-                           : excerpt_mesh(vertices_.ids, cells_.ids, corners<3>());
-  }
-
-  template <int count>
-  CellCorners<count, Id, HostMemory> corners() const {
-    const auto rows =
-        allocate<typename CellCorners<count, Id, HostMemory>::non_const_type>("GALE::excerpt_cells", cells_.count());
-    const auto& begin = reached_.cells.begin;
-    parallel_for("GALE::excerpt_cells", HostExecutionSpace(), cells_.count(), [&](Offset t) {
-      const Id at = cells_.first(t);
-      const int rank = static_cast<int>(std::upper_bound(begin.begin(), begin.end(), Offset(at)) - begin.begin()) - 1;
-      for (int k = 0; k < count; ++k) rows(t, k) = vertices_.of(rank, reached_.cells.entries(at).corners[k]);
-    });
-    return rows;
+    const auto& cells = reached_.cells;
+    return dimension_ == 3 ? excerpt_mesh(vertices_.ids, cells_.ids, received_corners<4>(vertices_, cells_, cells))
+                           : excerpt_mesh(vertices_.ids, cells_.ids, received_corners<3>(vertices_, cells_, cells));
   }
 
   VertexOrder order_of(const Mesh& mesh) const {
@@ -130,8 +118,8 @@ class ExcerptMaker {
 
   const Reached reached_;
   const int dimension_;
-  const ReceivedNumbers<ReachedVertex> vertices_;
-  const ReceivedNumbers<ReachedCell> cells_;
+  const ReceivedNumbers<ReceivedVertex> vertices_;
+  const ReceivedNumbers<ReceivedCell> cells_;
   std::vector<Id> internal_cell_;
 };
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <gale/algorithms/discrete_gradient.hpp>
+#include <gale/algorithms/excerpt/received_numbers.hpp>
 #include <gale/algorithms/gradient/edge_pairs.hpp>
 #include <gale/mesh/exchange/messages.hpp>
 #include <gale/runtime/structure.hpp>
@@ -22,18 +23,6 @@ struct WantedWays {
   bool rising_walls = false;   ///< up from critical edges, with all cells around
 };
 
-/// A vertex that was reached: its global id, and a number that compares on all ranks as the field's value does.
-struct ReachedVertex {
-  GlobalId id;
-  std::uint64_t value;
-};
-
-/// A cell that was reached: its global id and its corners, places among vertices; of a triangle the last one twice.
-struct ReachedCell {
-  GlobalId id;
-  std::array<Id, 4> corners;
-};
-
 /// What stands for a cell's successor that is outside: behind the corner opposite the facet that it is paired with.
 constexpr Id step_outside(int corner) { return -2 - corner; }
 constexpr int corner_of_step(Id step) { return -2 - step; }
@@ -41,8 +30,8 @@ constexpr int corner_of_step(Id step) { return -2 - step; }
 /// What was reached, as `List<T>`s: simplices are called by places in the lists of vertices and cells.
 template <template <class> class List>
 struct ReachedLists {
-  List<ReachedVertex> vertices;
-  List<ReachedCell> cells;
+  List<ReceivedVertex> vertices;
+  List<ReceivedCell> cells;
   List<std::array<Id, 2>> vertex_steps;        ///< a vertex, and the next one; no_id: it is critical
   List<std::array<Id, 3>> edges;               ///< an edge, the higher end first, and what it is paired with
   List<std::array<Id, 2>> cell_steps;          ///< a cell, and the next one; no_id: it is critical
@@ -64,14 +53,6 @@ struct ReachedLists {
 
 /// What one rank has received, by the rank that found it: places are those among what that one sent.
 using Reached = ReachedLists<EntriesByRank>;
-
-/// Calls visit(rank, entry) for all that was received of one kind.
-template <class T, class Visit>
-void for_each_received(const EntriesByRank<T>& received, const Visit& visit) {
-  for (int rank = 0; rank + 1 < static_cast<int>(received.begin.size()); ++rank) {
-    for (Offset i = received.begin[rank]; i < received.begin[rank + 1]; ++i) visit(rank, received.entries(i));
-  }
-}
 
 /// Follows ways, from rank to rank in rounds of messages, as many as a way changes ranks: a step is taken by the rank
 /// that owns the highest vertex of a simplex. Each is taken once for each rank that asks. `rows` has VT, for rising

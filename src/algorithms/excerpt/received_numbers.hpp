@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <vector>
 
 #include <gale/base/parallel.hpp>
@@ -7,6 +9,19 @@
 #include <gale/mesh/exchange/messages.hpp>
 
 namespace gale::detail {
+
+/// A vertex that a rank has sent: its global id, and a number that compares on all ranks as the field's value does.
+struct ReceivedVertex {
+  GlobalId id;
+  std::uint64_t value;
+};
+
+/// A cell that a rank has sent: its global id and its corners, places among the vertices that this rank has sent; of a
+/// triangle the last one twice.
+struct ReceivedCell {
+  GlobalId id;
+  std::array<Id, 4> corners;
+};
 
 /// What ranks have sent has a number each by its global id, which may have come from several.
 template <class T>
@@ -45,5 +60,20 @@ class ReceivedNumbers {
   std::vector<Offset> begin_;
   std::vector<Id> number_;
 };
+
+/// The corners of cells that ranks have sent, by the numbers of their vertices.
+template <int corners>
+CellCorners<corners, Id, HostMemory> received_corners(const ReceivedNumbers<ReceivedVertex>& vertices,
+                                                      const ReceivedNumbers<ReceivedCell>& cells,
+                                                      const EntriesByRank<ReceivedCell>& received) {
+  const auto rows =
+      allocate<typename CellCorners<corners, Id, HostMemory>::non_const_type>("GALE::received_cells", cells.count());
+  parallel_for("GALE::received_cells", HostExecutionSpace(), cells.count(), [&](Offset t) {
+    const Id at = cells.first(t);
+    const int rank = received.rank_of(at);
+    for (int k = 0; k < corners; ++k) rows(t, k) = vertices.of(rank, received.entries(at).corners[k]);
+  });
+  return rows;
+}
 
 }  // namespace gale::detail

@@ -12,12 +12,6 @@ namespace gale::detail {
 
 namespace {
 
-/// A cell of a rank, whose corners are its ids of vertices (GALE's).
-struct OwnedCell {
-  GlobalId id;
-  std::array<Id, 4> corners;
-};
-
 /// The grid that all ranks have layers of, if it has all its cubes. Collective.
 std::optional<std::array<Id, 3>> shared_grid(const Ranks& ranks, const Mesh& mesh) {
   const Grid* const grid = mesh.grid();
@@ -40,15 +34,15 @@ class WholeGathering {
   WholeGathering(const VertexOrder& order, bool with_cells) : mesh_(order.mesh()), ranks_(mesh_.exchange().ranks()) {
     together(ranks_, [&] {
       const OtherIds input = mesh_.vertices_in_input();
-      vertices = to_first<HeldVertex>(mesh_.vertices(), [&](Offset v) {
-        return HeldVertex{mesh_.vertex_id(input[static_cast<Id>(v)]), order.value_key(static_cast<Id>(v))};
+      vertices = to_first<ReceivedVertex>(mesh_.vertices(), [&](Offset v) {
+        return ReceivedVertex{mesh_.vertex_id(input[static_cast<Id>(v)]), order.value_key(static_cast<Id>(v))};
       });
       // Where owned vertices begin and where each of their segments ends; of a grid nobody asks.
       const Interval owned = mesh_.owned_segments();
       const auto& begin = mesh_.vertex_begin();
       segments = to_first<Id>(with_cells && owned.size() > 0 ? owned.size() + 1 : 0,
                               [&](Offset i) { return begin(owned.first + static_cast<Id>(i)); });
-      cells = with_cells ? owned_cells() : to_first<OwnedCell>(0, [](Offset) { return OwnedCell{}; });
+      cells = with_cells ? owned_cells() : to_first<ReceivedCell>(0, [](Offset) { return ReceivedCell{}; });
     });
   }
 
@@ -62,9 +56,9 @@ class WholeGathering {
     cells = exchange(ranks_, "GALE::cells_of_all", cells);
   }
 
-  EntriesByRank<HeldVertex> vertices;
+  EntriesByRank<ReceivedVertex> vertices;
   EntriesByRank<Id> segments;
-  EntriesByRank<OwnedCell> cells;
+  EntriesByRank<ReceivedCell> cells;
 
  private:
   template <class T, class EntryOf>
@@ -77,7 +71,7 @@ class WholeGathering {
   }
 
   /// A cell is sent by the owner of its corner of the lowest global id, and so of the lowest input id.
-  EntriesByRank<OwnedCell> owned_cells() const {
+  EntriesByRank<ReceivedCell> owned_cells() const {
     const CellReader cell = mesh_.cell_reader();
     const OtherIds input = mesh_.vertices_in_input(), cell_input = mesh_.cells_in_input();
     const Interval owned = mesh_.owned_vertices();
@@ -89,10 +83,10 @@ class WholeGathering {
       }
       visit(owned.has(lowest) ? 0 : 1);
     });
-    return to_first<OwnedCell>(groups.begin[1], [&](Offset i) {
+    return to_first<ReceivedCell>(groups.begin[1], [&](Offset i) {
       const Id t = groups.entries(i);
       const Quad corners = cell(t);
-      return OwnedCell{mesh_.cell_id(cell_input[t]), {corners.a, corners.b, corners.c, corners.d}};
+      return ReceivedCell{mesh_.cell_id(cell_input[t]), {corners.a, corners.b, corners.c, corners.d}};
     });
   }
 
@@ -101,7 +95,7 @@ class WholeGathering {
 };
 
 /// The ranks' segments, one after the other.
-Segmentation segmentation_of(const ReceivedNumbers<HeldVertex>& vertices, const EntriesByRank<Id>& segments) {
+Segmentation segmentation_of(const ReceivedNumbers<ReceivedVertex>& vertices, const EntriesByRank<Id>& segments) {
   const auto input = allocate<Array<Id, HostMemory>>("GALE::whole_vertices", vertices.count());
   std::vector<Id> begin{0};
   for (std::size_t rank = 0; rank + 1 < segments.begin.size(); ++rank) {
@@ -114,25 +108,15 @@ Segmentation segmentation_of(const ReceivedNumbers<HeldVertex>& vertices, const 
   }
   Segmentation segmentation;
   segmentation.vertex_input = input;
-  const auto vertex_begin = allocate<Array<Id, HostMemory>>("GALE::whole_segments", begin.size());
-  std::copy(begin.begin(), begin.end(), vertex_begin.data());
-  segmentation.vertex_begin = vertex_begin;
+  segmentation.vertex_begin = array_of("GALE::whole_segments", begin);
   segmentation.owned_segments = static_cast<Id>(begin.size()) - 1;
   return segmentation;
 }
 
 template <int corners>
-Mesh mesh_of(const ReceivedNumbers<HeldVertex>& vertices, const WholeGathering& gathered) {
-  const auto& from = gathered.cells;
-  const ReceivedNumbers<OwnedCell> cells(from);
-  const auto rows =
-      allocate<typename CellCorners<corners, Id, HostMemory>::non_const_type>("GALE::whole_cells", cells.count());
-  parallel_for("GALE::whole_cells", HostExecutionSpace(), cells.count(), [&](Offset t) {
-    const Id at = cells.first(t);
-    const auto rank = std::upper_bound(from.begin.begin(), from.begin.end(), Offset(at)) - from.begin.begin() - 1;
-    for (int k = 0; k < corners; ++k) rows(t, k) = vertices.of(static_cast<int>(rank), from.entries(at).corners[k]);
-  });
-  return Mesh(CellCorners<corners, Id, HostMemory>(rows), segmentation_of(vertices, gathered.segments),
+Mesh mesh_of(const ReceivedNumbers<ReceivedVertex>& vertices, const WholeGathering& gathered) {
+  const ReceivedNumbers<ReceivedCell> cells(gathered.cells);
+  return Mesh(received_corners<corners>(vertices, cells, gathered.cells), segmentation_of(vertices, gathered.segments),
               std::make_shared<ExcerptExchange>(vertices.ids, cells.ids));
 }
 

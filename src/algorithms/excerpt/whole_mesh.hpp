@@ -10,12 +10,6 @@
 
 namespace gale::detail {
 
-/// A vertex that a rank holds: its global id, and the number that compares as its value does.
-struct HeldVertex {
-  GlobalId id;
-  std::uint64_t value;
-};
-
 /// The whole of a mesh that lies on several ranks, on the first one; an empty mesh on the others. Its input ids ascend
 /// with the global ids, and segments are those of the ranks. Cells of a grid with all its cubes aren't gathered: it is
 /// a grid there, too.
@@ -60,7 +54,7 @@ class GALE_EXPORT WholeMesh {
 
   const Mesh part_;
   const Ranks& ranks_;
-  std::optional<ReceivedNumbers<HeldVertex>> numbers_;  ///< input ids of the whole, by rank and GALE's id there
+  std::optional<ReceivedNumbers<ReceivedVertex>> numbers_;  ///< input ids of the whole, by rank and GALE's id there
   std::optional<VertexOrder> order_;
 };
 

@@ -62,7 +62,7 @@ void WiderSimplices::number_vertices(const Reached& reached) {
 void WiderSimplices::number_cells(const Reached& reached, const PathSimplices& cells) {
   cell_begin_ = reached.cells.begin;
   HashTable<Id> others;
-  for_each_received(reached.cells, [&](int rank, const ReachedCell& cell) {
+  for_each_received(reached.cells, [&](int rank, const ReceivedCell& cell) {
     if (exchange_.cell_of(cell.id) != no_id) {
       cell_of_.push_back(cells.local(cell.id));
       return;

@@ -73,7 +73,7 @@ class WiderSimplices {
   const Id own_vertices_, own_cells_;
   std::vector<Offset> vertex_begin_, cell_begin_;
   std::vector<Id> vertex_of_, cell_of_;          ///< of what was received
-  std::vector<ReachedVertex> beyond_;            ///< by global id
+  std::vector<ReceivedVertex> beyond_;           ///< by global id
   std::vector<Id> own_before_;                   ///< of these, see VertexNames
   std::vector<GlobalId> cell_ids_;               ///< of others' cells
   std::vector<std::array<Id, 4>> cell_corners_;  ///< of these

@@ -4,7 +4,7 @@
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/gradient/gradient_sweep.hpp>
 #include <gale/algorithms/gradient/grid_pairs.hpp>
-#include <gale/algorithms/order/require_mesh.hpp>
+#include <gale/algorithms/order/require.hpp>
 #include <gale/base/error.hpp>
 
 namespace gale {

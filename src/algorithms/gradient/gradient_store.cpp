@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include <gale/algorithms/gradient/gradient_store.hpp>
-#include <gale/algorithms/order/require_mesh.hpp>
+#include <gale/algorithms/order/require.hpp>
 #include <gale/base/sort.hpp>
 
 namespace gale::detail {

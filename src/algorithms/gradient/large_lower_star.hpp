@@ -1,9 +1,10 @@
 #pragma once
 
 #include <array>
+#include <functional>
+#include <queue>
 #include <vector>
 
-#include <gale/algorithms/gradient/heap_queues.hpp>
 #include <gale/relations/rows.hpp>
 
 namespace gale::detail {
@@ -11,7 +12,7 @@ namespace gale::detail {
 /// A LowerStar with its queues, for stars of any size, among tetrahedra or triangles, and facets of these that any
 /// number of them share: a facet is a triangle or, on a triangle mesh, an edge. Time O(n log n). One serves one thread,
 /// and keeps its memory.
-class LargeLowerStar : public HeapQueues {
+class LargeLowerStar {
  public:
   static constexpr Id no_place = no_id;
   static constexpr bool may_fork = true;   ///< whether a facet may have more than two of the mesh's cells
@@ -44,7 +45,23 @@ class LargeLowerStar : public HeapQueues {
     for (Id i = side_begin_[facet]; i < side_begin_[facet + 1]; ++i) visit(sides_[i][3]);
   }
 
+  // The queues of `pair_cells`: cells are numbered in the order of their keys.
+
+  void add_edges() {
+    for (int cell = 1; cell < static_cast<int>(facets_.size()); ++cell) {
+      if (facets_[cell][0] < 0) deferred_.push(cell);
+    }
+  }
+  void settle(int cell) { settled_[cell] = true; }
+  void push(int cell);
+  bool next(int& cell) { return take(ready_, cell); }
+  bool next_deferred(int& cell) { return take(deferred_, cell); }
+  void defer(int cell) { deferred_.push(cell); }
+  int facet(int cell) const;
+
  private:
+  using Queue = std::priority_queue<int, std::vector<int>, std::greater<int>>;
+
   /// The ranks of a cell, -1 where there are fewer than three, and its place if it is one of the mesh's, else no_id; or
   /// those of a facet, and the place of a cell that has it.
   using Ranked = std::array<Id, 4>;
@@ -53,11 +70,23 @@ class LargeLowerStar : public HeapQueues {
   void find_sides(const std::vector<Id>& ranks, const LinkRow& link);
   int triangle(Id a, Id b) const;
 
+  /// When the facets are set: finds the cofacets, and empties the queues.
+  void connect();
+  bool take(Queue& from, int& cell);
+
   std::vector<Id> numbers_;     ///< of the mesh's cells
   std::vector<Ranked> cells_;   ///< ascending
   std::vector<Ranked> sides_;   ///< each facet with each of its cells, ascending
   std::vector<Id> side_begin_;  ///< where those of each cell begin
   std::vector<int> edge_cell_;  ///< by rank
+
+  /// The facets of each cell that contain the vertex, -1 where there are fewer than three: those of edges contain
+  /// nothing else, and aren't there.
+  std::vector<std::array<int, 3>> facets_;
+  std::vector<int> cofacet_begin_;
+  std::vector<int> cofacets_;
+  std::vector<char> settled_;
+  Queue ready_, deferred_;
 };
 
 }  // namespace gale::detail

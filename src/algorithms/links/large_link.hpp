@@ -7,6 +7,7 @@
 
 #include <gale/algorithms/links/small_link.hpp>
 #include <gale/base/bits.hpp>
+#include <gale/base/ordered.hpp>
 
 namespace gale::detail {
 
@@ -46,7 +47,7 @@ class LargeLink {
     std::iota(parent_.begin(), parent_.end(), Id(0));
     for (const std::uint64_t edge : edges_) {
       const Id a = pair_first(edge), b = pair_second(edge);
-      if (is_lower(a) == is_lower(b)) parent_[root(a)] = root(b);
+      if (is_lower(a) == is_lower(b)) parent_[root_of(parent_, a)] = root_of(parent_, b);
     }
     LinkTopology topology;
     for (Id i = 0; i < neighbours; ++i) {
@@ -73,11 +74,6 @@ class LargeLink {
       if (!came_before && (i + 1 == values.size() || values[i] != values[i + 1])) return true;
     }
     return false;
-  }
-
-  Id root(Id i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
   }
 
   std::vector<std::uint64_t> edges_;

@@ -33,8 +33,7 @@ FollowedPaths<MemoryOf<Space>> follow_paths(const Space& space, Side side, const
   parallel_sort("GALE::sort_extrema", paths.extrema.begin(), paths.extrema.end(), comes_before);
   const std::vector<Id> extrema = compared.at(paths.extrema);
   const auto places = in_memory<MemoryOf<Space>>(extrema);
-  parallel_for("GALE::end_paths", space, places.extent(0),
-               EndPath<MemoryOf<Space>, std::decay_t<decltype(places)>>{places, paths.ends});
+  parallel_for("GALE::end_paths", space, places.extent(0), EndPath<MemoryOf<Space>>{places, paths.ends});
   jump(space, paths.ends);
   std::vector<Id> others;
   others.reserve(paths.meetings.size());

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include <gale/base/ordered.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/base/sort.hpp>
 #include <gale/mesh/exchange/global_index.hpp>
@@ -41,9 +42,9 @@ class JoinedExtrema {
     for (std::size_t i = 0, next = 0; i < meetings.size(); i = next) {
       const std::size_t before = kept.size();
       kept.push_back(meetings[i]);
-      const Id all = find(place_of(i));
+      const Id all = root_of(joined_, place_of(i));
       for (next = i + 1; next < meetings.size() && meetings[next].vertex == meetings[i].vertex; ++next) {
-        const Id other = find(place_of(next));
+        const Id other = root_of(joined_, place_of(next));
         if (other == all) continue;
         joined_[other] = all;
         kept.push_back(meetings[next]);
@@ -56,15 +57,10 @@ class JoinedExtrema {
   /// The extremum that stands for all that this one is joined with.
   GlobalId of(GlobalId extremum) {
     const Id place = extrema_.find(extremum);
-    return place == no_id ? extremum : extrema_[find(place)];
+    return place == no_id ? extremum : extrema_[root_of(joined_, place)];
   }
 
  private:
-  Id find(Id place) {
-    while (joined_[place] != place) place = joined_[place] = joined_[joined_[place]];
-    return place;
-  }
-
   GlobalIndex extrema_;
   std::vector<Id> joined_;  ///< for each a step to the one that stands for it
 };

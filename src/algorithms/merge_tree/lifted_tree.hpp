@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -33,8 +32,6 @@ template <class Memory>
 LiftedTree<Memory> lifted_tree(const std::vector<std::uint64_t>& keys, const std::vector<Id>& parents) {
   const auto count = static_cast<Id>(keys.size());
   std::vector<Id> up(count);
-  const auto keys_here = allocate<Array<std::uint64_t, HostMemory>>("GALE::node_keys", count);
-  std::copy(keys.begin(), keys.end(), keys_here.data());
   for (Id node = 0; node < count; ++node) up[node] = parents[node] == no_id ? node : parents[node];
   int levels = 1;
   for (bool goes_on = true; goes_on;) {
@@ -47,10 +44,8 @@ LiftedTree<Memory> lifted_tree(const std::vector<std::uint64_t>& keys, const std
     }
     if (goes_on) ++levels;
   }
-  const Array<const Id, HostMemory> up_here(up.data(), up.size());
-  const auto copy = allocate<Array<Id, HostMemory>>("GALE::nodes_above", up.size());
-  Kokkos::deep_copy(copy, up_here);
-  return {in_memory<Memory>(copy), in_memory<Memory>(keys_here), levels};
+  return {in_memory<Memory>(array_of("GALE::nodes_above", up)), in_memory<Memory>(array_of("GALE::node_keys", keys)),
+          levels};
 }
 
 }  // namespace gale::detail

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include <gale/algorithms/merge_tree/merge_forest.hpp>
+#include <gale/base/ordered.hpp>
 #include <gale/base/sort.hpp>
 #include <gale/base/stop.hpp>
 
@@ -25,9 +26,9 @@ class ExtremumJoiner {
 
   /// Joins the components of the extrema that meet in a vertex.
   void join(const Meeting* begin, const Meeting* end) {
-    Id node = no_id, all = oldest(begin->other);
+    Id node = no_id, all = root_of(older_, begin->other);
     for (const Meeting* meeting = begin + 1; meeting != end; ++meeting) {
-      const Id other = oldest(meeting->other);
+      const Id other = root_of(older_, meeting->other);
       if (other == all) continue;
       if (node == no_id) {
         node = add(begin->vertex);
@@ -44,7 +45,7 @@ class ExtremumJoiner {
 
   /// Ends a component, unless that was done.
   void end_at(const Meeting& last) {
-    const Id component = oldest(last.other);
+    const Id component = root_of(older_, last.other);
     if (has_root_[component]) return;
     has_root_[component] = true;
     const Id newest = newest_[component];
@@ -56,11 +57,6 @@ class ExtremumJoiner {
   MergeForest forest;
 
  private:
-  Id oldest(Id of) {
-    while (older_[of] != of) of = older_[of] = older_[older_[of]];
-    return of;
-  }
-
   Id add(Id vertex) {
     forest.vertices.push_back(vertex);
     forest.parent.push_back(no_id);

@@ -2,14 +2,13 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
-#include <string>
 #include <utility>
 
 #include <gale/algorithms/merge_tree.hpp>
 #include <gale/algorithms/merge_tree/computed_graph.hpp>
 #include <gale/algorithms/merge_tree/tree_maker.hpp>
 #include <gale/algorithms/merge_tree/trees_on_ranks.hpp>
-#include <gale/algorithms/order/require_mesh.hpp>
+#include <gale/algorithms/order/require.hpp>
 #include <gale/algorithms/simplify_field.hpp>
 #include <gale/base/error.hpp>
 
@@ -24,12 +23,8 @@ std::optional<ThresholdOfTree> threshold_of(const MergeTreeOptions& options) {
   if (options.threshold == 0) return std::nullopt;
   if (std::isnan(options.threshold)) throw Error("the threshold of a tree is no number");
   if (!options.value) throw Error("a tree simplified by persistence needs the field's values");
-  return ThresholdOfTree{options.threshold, [&options](Id vertex) {
-                           const double value = options.value(vertex);
-                           if (std::isnan(value))
-                             throw Error("vertex " + std::to_string(vertex) + " has no field value: it is NaN");
-                           return value;
-                         }};
+  return ThresholdOfTree{options.threshold,
+                         [&options](Id vertex) { return detail::known_value(options.value(vertex), vertex); }};
 }
 
 /// Makes trees of an order as it is; but join and split trees as far as a threshold leaves them.

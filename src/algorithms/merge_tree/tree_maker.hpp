@@ -107,11 +107,9 @@ class TreeMaker {
 
   SideClimb<Memory> climb(Side side, const std::vector<Id>& leaf, const std::vector<Id>& vertices,
                           const std::vector<Id>& parents) const {
-    const auto copy = allocate<Array<Id, HostMemory>>("GALE::leaves", leaf.size());
-    std::copy(leaf.begin(), leaf.end(), copy.data());
     return {{keys_, side},
             ends_[side],
-            in_memory<Memory>(copy),
+            in_memory<Memory>(array_of("GALE::leaves", leaf)),
             lifted_tree<Memory>(compared_.keys_at(vertices, side), parents)};
   }
 

@@ -1,14 +1,13 @@
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <optional>
-#include <string>
 #include <type_traits>
 #include <utility>
 
 #include <gale/algorithms/merge_tree/assemble.hpp>
 #include <gale/algorithms/merge_tree/trees_on_ranks.hpp>
 #include <gale/algorithms/merge_tree/vertex_climbs.hpp>
+#include <gale/algorithms/order/require.hpp>
 #include <gale/mesh/exchange/exchange_plan.hpp>
 
 namespace gale::detail {
@@ -64,12 +63,7 @@ std::vector<MergeTree> trees_on_ranks(const VertexOrder& order, MirroredGraph gr
   std::vector<double> values;
   if (options.threshold != 0) values = values_at(gathered.mesh(), mesh, options.value);
   const ThresholdOfTree threshold{
-      options.threshold, [&](Id vertex) {
-        if (std::isnan(values[vertex])) {
-          throw Error("vertex " + std::to_string(gathered.mesh().vertex_id(vertex)) + " has no field value: it is NaN");
-        }
-        return values[vertex];
-      }};
+      options.threshold, [&](Id vertex) { return known_value(values[vertex], gathered.mesh().vertex_id(vertex)); }};
   std::optional<TreeMaker<HostExecutionSpace>> maker;
   std::vector<ArcsOfNodes> claims;
   std::vector<MergeTree> made;

@@ -101,7 +101,7 @@ CondensedPaths<MemoryOf<Space>> condensed_paths(const Space& space, const Mirror
   const auto count = static_cast<Offset>(successors.size()) / 64 + 1;
   const auto words = allocate<Array<std::uint64_t, Memory>>("GALE::path_entries", count);
   fill("GALE::path_entries", space, words, std::uint64_t(0));
-  const Array<const Id, Memory> last = in_memory<Memory>(Array<const Id, HostMemory>(ends.data(), ends.size()));
+  const Array<const Id, Memory> last = in_memory<Memory>(ends);
   for (const Array<const Id, Memory>& simplices :
        {Array<const Id, Memory>(starts), last, Array<const Id, Memory>(exits)}) {
     const MarkSimplices<Memory> mark{simplices, words};

@@ -30,9 +30,9 @@ struct BeginPath {
 };
 
 /// Ends those that lead to one of the places.
-template <class Memory, class Places>
+template <class Memory>
 struct EndPath {
-  Places places;
+  Array<const Id, Memory> places;
   Array<Id, Memory> next;
 
   KOKKOS_FUNCTION void operator()(Offset i) const { next(places(i)) = end_at(static_cast<Id>(i)); }
@@ -81,9 +81,8 @@ Array<Id, MemoryOf<Space>> with_ends(const Space& space, const Mirrored<Id>& suc
   const auto next = allocate<Array<Id, MemoryOf<Space>>>("GALE::next_on_path", successors.size());
   const auto from = successors_in<MemoryOf<Space>>(successors);
   parallel_for("GALE::begin_paths", space, from.extent(0), BeginPath<MemoryOf<Space>>{from, next});
-  const auto places = in_memory<MemoryOf<Space>>(Array<const Id, HostMemory>(ends.data(), ends.size()));
-  parallel_for("GALE::end_paths", space, places.extent(0),
-               EndPath<MemoryOf<Space>, std::decay_t<decltype(places)>>{places, next});
+  const auto places = in_memory<MemoryOf<Space>>(ends);
+  parallel_for("GALE::end_paths", space, places.extent(0), EndPath<MemoryOf<Space>>{places, next});
   return next;
 }
 

@@ -86,8 +86,7 @@ ManifoldPairs counted_pairs(const Mirrored<Id>& ascending, const Mirrored<Id>& d
   std::vector<std::uint64_t> all;
   for (const auto& some : found) all.insert(all.end(), some.begin(), some.end());
   sort_distinct("GALE::sort_manifold_pairs", all);
-  const auto pairs = allocate<Array<std::uint64_t, HostMemory>>("GALE::manifold_pairs", all.size());
-  std::copy(all.begin(), all.end(), pairs.data());
+  const auto pairs = array_of("GALE::manifold_pairs", all);
   for_parts("GALE::number_manifolds", count, parts, [&](int part, Offset first, Offset last) {
     std::vector<Id> numbers;
     for (const std::uint64_t pair : found[part])

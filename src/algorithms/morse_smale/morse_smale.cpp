@@ -8,7 +8,7 @@
 #include <gale/algorithms/gradient/gradient_store.hpp>
 #include <gale/algorithms/morse_smale.hpp>
 #include <gale/algorithms/morse_smale/parts.hpp>
-#include <gale/algorithms/order/require_mesh.hpp>
+#include <gale/algorithms/order/require.hpp>
 #include <gale/algorithms/persistence/pairs.hpp>
 #include <gale/base/error.hpp>
 #include <gale/runtime/ways.hpp>

@@ -4,7 +4,7 @@
 #include <limits>
 #include <string>
 
-#include <gale/algorithms/numbers/grid_numbers.hpp>
+#include <gale/algorithms/numbers/numbering.hpp>
 #include <gale/base/bits.hpp>
 #include <gale/base/error.hpp>
 #include <gale/base/ordered.hpp>
@@ -111,33 +111,14 @@ class Directions {
   Array<std::uint32_t, HostMemory> places_;  ///< x fastest; of a whole grid they are the ids
 };
 
-template <std::size_t N>
-[[noreturn]] void refuse(const std::array<Id, N>& simplex) {
-  std::string vertices;
-  for (const Id vertex : simplex) vertices += ' ' + std::to_string(vertex);
-  throw Error("no simplex of the mesh has just the input vertices" + vertices);
-}
-
 /// A simplex's vertices, ascending. Throws gale::Error for a vertex that the mesh doesn't have.
 template <std::size_t N>
 std::array<Id, N> vertices_of(const Mesh& mesh, const std::array<Id, N>& simplex) {
-  for (const Id vertex : simplex) {
-    if (vertex < 0 || vertex >= mesh.vertices())
-      throw Error("no vertex " + std::to_string(vertex) + " to number a simplex of: there are " +
-                  std::to_string(mesh.vertices()));
-  }
+  require_vertices(mesh, simplex);
   return ascending(simplex);
 }
 
 using Counts = Array<Id, HostMemory>;
-
-/// Turns the counts of simplices by vertex into the numbers of their first ones.
-void scan(const char* name, const Counts& counts) {
-  const Offset vertices = counts.extent(0) - 1;
-  const auto count = [&](Offset i) { return counts(i); };
-  require_ids(name, reduce_sum("GALE::sum_simplices", HostExecutionSpace(), vertices, count));
-  exclusive_scan("GALE::number_first_simplices", HostExecutionSpace(), vertices, counts, count);
-}
 
 }  // namespace
 
@@ -163,8 +144,8 @@ SimplexNumbers number_on_grid(const Mesh& mesh, const NamedSimplices& named) {
       first_triangle(v) = kind.triangles;
     }
   });
-  scan("edges", first_edge);
-  scan("triangles", first_triangle);
+  number_first_simplices("edges", first_edge);
+  number_first_simplices("triangles", first_triangle);
 
   SimplexNumbers numbers{{}, {}, on_surface};
   side_by_side([&] { numbers.triangles.resize(named.triangles.size()); },
@@ -184,7 +165,8 @@ SimplexNumbers number_on_grid(const Mesh& mesh, const NamedSimplices& named) {
     const auto edge = vertices_of(mesh, named.edges[i]);
     const int direction = directions.between(edge[0], edge[1]);
     const LaterKind& kind = kinds[kind_of(edge[0])];
-    if (direction == later_directions || kind.edge[direction] == LaterKind::none) refuse(edge);
+    if (direction == later_directions || kind.edge[direction] == LaterKind::none)
+      refuse_simplex(mesh.vertices_in_input(), edge);
     numbers.edges[i] = first_edge(edge[0]) + kind.edge[direction];
   });
   parallel_for("GALE::number_triangles", HostExecutionSpace(), named.triangles.size(), [&](Offset i) {
@@ -193,7 +175,7 @@ SimplexNumbers number_on_grid(const Mesh& mesh, const NamedSimplices& named) {
     const int one = directions.between(triangle[0], triangle[1]), other = directions.between(triangle[0], triangle[2]);
     const LaterKind& kind = kinds[kind_of(triangle[0])];
     if (one == later_directions || other == later_directions || kind.triangle[one][other] == LaterKind::none)
-      refuse(triangle);
+      refuse_simplex(mesh.vertices_in_input(), triangle);
     numbers.triangles[i] = first_triangle(triangle[0]) + kind.triangle[one][other];
   });
   return numbers;

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <string>
 #include <utility>
 #include <vector>
 
 #include <gale/algorithms/numbers/later_star.hpp>
+#include <gale/algorithms/numbers/numbering.hpp>
 #include <gale/algorithms/simplex_numbers.hpp>
-#include <gale/base/error.hpp>
 #include <gale/base/group_by.hpp>
 #include <gale/base/parallel.hpp>
 #include <gale/mesh/mesh.hpp>
@@ -57,7 +56,7 @@ class NumberQueries {
 
   /// Sets the place of a simplex among those with the same first vertex. Throws gale::Error if it is no_id.
   void set_place(Id index, Id place) {
-    if (place == no_id) refuse(ascending(index));
+    if (place == no_id) refuse_simplex(input_, ascending(index));
     numbers_[index] = place;
   }
 
@@ -73,20 +72,6 @@ class NumberQueries {
   }
 
  private:
-  static void require_vertices(const Mesh& mesh, const Simplex& simplex) {
-    for (const Id vertex : simplex) {
-      if (vertex >= 0 && vertex < mesh.vertices()) continue;
-      throw Error("no vertex " + std::to_string(vertex) + " to number a simplex of: there are " +
-                  std::to_string(mesh.vertices()));
-    }
-  }
-
-  [[noreturn]] void refuse(const Simplex& simplex) const {
-    std::string vertices;
-    for (const Id vertex : simplex) vertices += ' ' + std::to_string(input_[vertex]);
-    throw Error("no simplex of the mesh has just the input vertices" + vertices);
-  }
-
   const std::vector<Simplex>& simplices_;
   OtherIds input_;
   Csr<Query, HostMemory, Id> queries_;  ///< by segment

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <memory>
 
-#include <gale/algorithms/numbers/grid_numbers.hpp>
 #include <gale/algorithms/numbers/numbering_sweep.hpp>
 #include <gale/algorithms/simplex_numbers.hpp>
 #include <gale/base/ordered.hpp>
@@ -13,19 +12,12 @@ namespace gale {
 
 namespace {
 
-/// Turns the counts of so many vertices into the number of each vertex's first simplex.
-const Array<Id, HostMemory>& scan(const char* name, Id vertices, const Array<Id, HostMemory>& counts) {
-  const auto count = [&](Offset i) { return counts(i); };
-  require_ids(name, reduce_sum("GALE::sum_simplices", HostExecutionSpace(), vertices, count));
-  exclusive_scan("GALE::number_first_simplices", HostExecutionSpace(), vertices, counts, count);
-  return counts;
-}
-
 SimplexNumbers number_of_whole(Structure& structure, const NamedSimplices& named, const SweepOptions& options) {
-  const Id vertices = structure.mesh().vertices();
+  using detail::number_first_simplices;
   detail::NumberingSweep found(structure, named, options);
-  return {found.edges().take_numbers(scan("edges", vertices, found.edge_counts())),
-          found.triangles().take_numbers(scan("triangles", vertices, found.triangle_counts())), found.on_surface()};
+  return {found.edges().take_numbers(number_first_simplices("edges", found.edge_counts())),
+          found.triangles().take_numbers(number_first_simplices("triangles", found.triangle_counts())),
+          found.on_surface()};
 }
 
 using NumbersOfRanks = Array<GlobalId, HostMemory>;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <gale/algorithms/order/ordered_bits.hpp>
+#include <gale/algorithms/order/require.hpp>
 #include <gale/algorithms/vertex_order.hpp>
 #include <gale/base/error.hpp>
 #include <gale/base/momentary.hpp>
@@ -37,10 +38,6 @@ struct RawValues {
     return is_nan(bits(i), kind) ? vertex : none;
   }
 };
-
-std::string without_value(GlobalId vertex) {
-  return "vertex " + std::to_string(vertex) + " has no field value: it is NaN";
-}
 
 /// Value and input id fit one key.
 template <class Space, class Raw>
@@ -115,7 +112,7 @@ OrderKeys keys_of_all(const Mesh& mesh, const RawValues<Raw, Memory>& values) {
     using Space = std::decay_t<decltype(space)>;
     const auto copy = in_memory<MemoryOf<Space>>(values.bits);
     const FoundKeys found = make_keys(space, mesh, RawValues<Raw, MemoryOf<Space>>{copy, values.kind});
-    if (found.bad < mesh.vertices()) throw Error(without_value(found.bad));
+    if (found.bad < mesh.vertices()) throw Error(detail::without_value(found.bad));
     return found.order;
   });
 }
@@ -173,7 +170,7 @@ OrderKeys keys_of_part(const Mesh& mesh, const RawValues<Raw, HostMemory>& given
   constexpr GlobalId none = std::numeric_limits<GlobalId>::max();
   const bool is_bad = found.bad < mesh.vertices();
   const GlobalId bad = exchange.ranks().least(is_bad ? mesh.vertex_id(static_cast<Id>(found.bad)) : none);
-  if (bad < none) throw SharedError(without_value(bad));
+  if (bad < none) throw SharedError(detail::without_value(bad));
   return found.order;
 }
 

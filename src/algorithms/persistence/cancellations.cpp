@@ -1,4 +1,3 @@
-#include <functional>
 #include <vector>
 
 #include <gale/algorithms/persistence/cancellations.hpp>
@@ -95,12 +94,11 @@ Cancellations cancel_below(double threshold, const MorseSmaleComplex& complex, c
   all.pairs =
       pairs_of(gradient, places, ends, false, extrema_only ? WantedPairs::of_extrema : WantedPairs::all, threads);
   const auto& pairs = all.pairs.pairs;
-  const std::function<void()> extrema[] = {
-      [&] { cancel_minima(pairs_below(threshold, 0, pairs[0], values), critical, ends.of_edges, all); },
-      [&] {
-        cancel_maxima(pairs_below(threshold, with_maxima, pairs[with_maxima], values), critical, ends.of_facets, all);
-      }};
-  in_turns(threads, 2, [&](int, std::int64_t i) { extrema[i](); });
+  side_by_side([&] { cancel_minima(pairs_below(threshold, 0, pairs[0], values), critical, ends.of_edges, all); },
+               [&] {
+                 cancel_maxima(pairs_below(threshold, with_maxima, pairs[with_maxima], values), critical,
+                               ends.of_facets, all);
+               });
   if (critical.dimension == 2) return all;
   if (want_joined) all.saddles.joined.resize(critical.edges.size());
   if (extrema_only) return all;

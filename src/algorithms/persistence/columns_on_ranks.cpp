@@ -181,15 +181,14 @@ class ColumnsOfAll {
     const auto triangle = [&](int rank, Id place) {
       return filtration_.rank[2][all.triangles.entries(all.triangles.begin[rank] + place)];
     };
-    for_each(stopped, [&](int rank, Offset i) { columns_[i].rank = triangle(rank, stopped.entries(i)); });
-    for_each(met, [&](int rank, Offset i) {
-      const Id column = static_cast<Id>(stopped.count() + i);
-      columns_[column].rank = triangle(rank, met.entries(i).triangle);
-      owner_[edge(rank, met.entries(i).edge)] = column;
+    Id column = 0;
+    for_each_received(stopped, [&](int rank, Id place) { columns_[column++].rank = triangle(rank, place); });
+    for_each_received(met, [&](int rank, const Met& one) {
+      columns_[column].rank = triangle(rank, one.triangle);
+      owner_[edge(rank, one.edge)] = column++;
     });
-    for_each(fallen, [&](int rank, Offset i) {
-      columns_[fallen.entries(i).column].edges.push_back(edge(rank, fallen.entries(i).edge));
-    });
+    for_each_received(
+        fallen, [&](int rank, const ColumnEdge& one) { columns_[one.column].edges.push_back(edge(rank, one.edge)); });
   }
 
   /// Goes on with the columns that stopped. Returns for each 1-saddle, by place, the 2-saddle that it is paired with.
@@ -207,14 +206,6 @@ class ColumnsOfAll {
     Id rank = 0;            ///< of the 2-saddle, in the filtration
     std::vector<Id> edges;  ///< ranks of critical edges in the filtration; an even number of times is none
   };
-
-  /// Calls visit(rank, i) for each entry.
-  template <class T, class Visit>
-  static void for_each(const EntriesByRank<T>& received, const Visit& visit) {
-    for (int rank = 0; rank + 1 < static_cast<int>(received.begin.size()); ++rank) {
-      for (Offset i = received.begin[rank]; i < received.begin[rank + 1]; ++i) visit(rank, i);
-    }
-  }
 
   void put(Id edge) {
     heap_.push_back(edge);

@@ -1,7 +1,6 @@
 #include <algorithm>
-#include <cmath>
-#include <string>
 
+#include <gale/algorithms/order/require.hpp>
 #include <gale/algorithms/persistence/pairs.hpp>
 #include <gale/base/error.hpp>
 #include <gale/base/sort.hpp>
@@ -86,10 +85,8 @@ CriticalValues critical_values(const DiscreteGradient& gradient, const std::func
   const CriticalSimplices& critical = gradient.critical();
   CriticalValues values;
   const auto add = [&](int dimension, Id vertex) {
-    values[dimension].push_back(value(input[vertex]));
-    if (std::isnan(values[dimension].back()))
-      throw Error("vertex " + std::to_string(gradient.mesh().vertex_id(input[vertex])) +
-                  " has no field value: it is NaN");
+    const Id from = input[vertex];
+    values[dimension].push_back(known_value(value(from), gradient.mesh().vertex_id(from)));
   };
   for (const Id vertex : critical.vertices) add(0, vertex);
   for (const auto& edge : critical.edges) add(1, edge[0]);

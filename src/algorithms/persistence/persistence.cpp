@@ -5,9 +5,10 @@
 #include <utility>
 
 #include <gale/algorithms/gradient/gradient_store.hpp>
-#include <gale/algorithms/order/require_mesh.hpp>
+#include <gale/algorithms/order/require.hpp>
 #include <gale/algorithms/persistence/pairs.hpp>
 #include <gale/algorithms/persistence/saddle_columns.hpp>
+#include <gale/base/ordered.hpp>
 #include <gale/base/stop.hpp>
 #include <gale/base/threads.hpp>
 
@@ -26,11 +27,7 @@ std::vector<Id> join_ends(const std::vector<Id>& saddles, const PathEnds& ends, 
   std::vector<Id> extremum(age.size() + 1, no_id), older(age.size() + 1), saddle_of(age.size(), no_id);
   for (std::size_t i = 0; i < age.size(); ++i) extremum[age[i] + 1] = static_cast<Id>(i);
   std::iota(older.begin(), older.end(), Id(0));
-  const auto oldest = [&](Id end) {
-    Id at = end == no_id ? 0 : age[end] + 1;
-    while (older[at] != at) at = older[at] = older[older[at]];
-    return at;
-  };
+  const auto oldest = [&](Id end) { return root_of(older, end == no_id ? 0 : age[end] + 1); };
   for (const Id saddle : saddles) {
     stop_if_asked_at(saddle);
     Id one = oldest(ends[saddle][0]), other = oldest(ends[saddle][1]);
@@ -79,9 +76,8 @@ PairsOfExtrema::PairsOfExtrema(const Filtration& filtration, const ExtremumEnds&
     return;
   }
   std::vector<Id> saddle_of_minimum, saddle_of_maximum;
-  const std::function<void()> extrema[] = {[&] { saddle_of_minimum = with_minima(); },
-                                           [&] { saddle_of_maximum = with_maxima([](Id) { return true; }); }};
-  in_turns(threads, 2, [&](int, std::int64_t i) { extrema[i](); });
+  side_by_side([&] { saddle_of_minimum = with_minima(); },
+               [&] { saddle_of_maximum = with_maxima([](Id) { return true; }); });
   found_.pairs[0] = from_lower(0, saddle_of_minimum);
   found_.pairs[2] = from_upper(2, saddle_of_maximum);
   std::copy_if(filtration.by_rank[2].begin(), filtration.by_rank[2].end(), std::back_inserter(columns_),

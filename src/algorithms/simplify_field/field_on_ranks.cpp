@@ -1,10 +1,10 @@
 #include <array>
-#include <cmath>
 #include <string>
 #include <utility>
 
 #include <gale/algorithms/excerpt/excerpt_mesh.hpp>
 #include <gale/algorithms/excerpt/whole_mesh.hpp>
+#include <gale/algorithms/order/require.hpp>
 #include <gale/algorithms/simplify_field/field_on_ranks.hpp>
 #include <gale/base/error.hpp>
 #include <gale/mesh/exchange/exchange_plan.hpp>
@@ -81,12 +81,8 @@ SimplifiedField simplified_on_ranks(const VertexOrder& order, const std::functio
   const Mesh& mesh = order.mesh();
   const Computing timed(mesh, options, computed);
   const WholeMesh whole(order, gathered);
-  const std::vector<double> values = values_at(whole.mesh(), mesh, [&](Id vertex) {
-    const double known = value(vertex);
-    if (std::isnan(known))
-      throw Error("vertex " + std::to_string(mesh.vertex_id(vertex)) + " has no field value: it is NaN");
-    return known;
-  });
+  const std::vector<double> values =
+      values_at(whole.mesh(), mesh, [&](Id vertex) { return known_value(value(vertex), mesh.vertex_id(vertex)); });
   return given_back(whole, mesh, computed, [&](Computed& of_whole) {
     return simplify_field(
         whole.order(), [&](Id vertex) { return values[vertex]; }, threshold, options, &of_whole);

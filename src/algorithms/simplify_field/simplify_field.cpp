@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <gale/algorithms/merge_tree/computed_graph.hpp>
+#include <gale/algorithms/order/require.hpp>
 #include <gale/algorithms/simplify_field.hpp>
 #include <gale/algorithms/simplify_field/field_on_ranks.hpp>
 #include <gale/algorithms/simplify_field/removed_branches.hpp>
@@ -185,9 +186,7 @@ SimplifiedField simplify_field(const VertexOrder& order, const std::function<dou
     return [&, input](detail::Side, const detail::MergeForest& forest) {
       const auto value_at = [&](Id vertex) {
         const Id from = input[changing.value_of()(vertex)];
-        const double known = value(from);
-        if (std::isnan(known)) throw Error("vertex " + std::to_string(from) + " has no field value: it is NaN");
-        return known;
+        return detail::known_value(value(from), from);
       };
       return detail::persistent_extrema(forest, value_at, threshold);
     };

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include <gale/algorithms/morse_smale/parts.hpp>
-#include <gale/algorithms/order/require_mesh.hpp>
+#include <gale/algorithms/order/require.hpp>
 #include <gale/algorithms/persistence/cancellations.hpp>
 #include <gale/algorithms/tracking.hpp>
 #include <gale/base/atomic.hpp>

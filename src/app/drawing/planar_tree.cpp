@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include <gale/app/drawing/planar_tree.hpp>
+#include <gale/base/ordered.hpp>
 
 namespace gale::app {
 
@@ -46,10 +47,7 @@ class Pruning {
   }
 
   /// The arc by which the branch of an arc is known.
-  Id known_by(Id arc) {
-    while (merged_[arc] != arc) arc = merged_[arc] = merged_[merged_[arc]];
-    return arc;
-  }
+  Id known_by(Id arc) { return root_of(merged_, arc); }
 
   std::vector<Branch> branches;  ///< in the order in which they were pruned, then the longest way of each component
 

@@ -87,8 +87,7 @@ GlobalIds merged_ids(const Ranks& ranks, const Array<detail::Point, HostMemory>&
     Id first = no_id;
     for (const Id i : sorted) {
       if (first == no_id || received.entries(i).bits != received.entries(first).bits) first = i;
-      const auto next = std::upper_bound(received.begin.begin(), received.begin.end(), Offset(first));
-      told.entries(i) = {static_cast<int>(next - received.begin.begin()) - 1, received.entries(first).place};
+      told.entries(i) = {received.rank_of(first), received.entries(first).place};
     }
   });
   detail::exchange(ranks, told, answers);

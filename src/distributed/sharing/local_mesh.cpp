@@ -38,19 +38,14 @@ struct OwnedInputIds {
   KOKKOS_FUNCTION Id operator()(Id i) const { return ids.extent(0) == 0 ? first + i : ids(i); }
 };
 
-template <class Space>
-OwnedInputIds<MemoryOf<Space>> owned_input_ids(const Space&, const LocalVertices& vertices) {
-  if (vertices.owned_count() == 0) return {0, {}};
-  return {vertices.owned(0), in_memory<MemoryOf<Space>>(vertices.owned_ids())};
-}
-
 /// Owned vertices segment after segment, then the ghosts likewise.
 template <class Space>
 Mirrored<Id> joined(const Space& space, const LocalVertices& vertices, const Mirrored<Id>& owned,
                     const Mirrored<Id>& ghosts) {
   using Here = MemoryOf<Space>;
   const auto all = allocate<Array<Id, Here>>("GALE::vertex_input", vertices.count());
-  const auto owned_ids = owned_input_ids(space, vertices);
+  OwnedInputIds<Here> owned_ids{0, {}};
+  if (vertices.owned_count() > 0) owned_ids = {vertices.owned(0), in_memory<Here>(vertices.owned_ids())};
   const Array<const Id, Here> order = owned.in<Here>();
   parallel_for(
       "GALE::owned_input", space, vertices.owned_count(), KOKKOS_LAMBDA(Offset i) { all(i) = owned_ids(order(i)); });

@@ -24,6 +24,11 @@ struct EntriesByRank {
 
   Offset count() const { return begin.back(); }
   Offset count(int rank) const { return begin[rank + 1] - begin[rank]; }
+
+  /// The rank of the entry at a place.
+  int rank_of(Offset at) const {
+    return static_cast<int>(std::upper_bound(begin.begin(), begin.end(), at) - begin.begin()) - 1;
+  }
 };
 
 /// Room for so many entries by rank.
@@ -45,6 +50,14 @@ EntriesByRank<T> room_to_receive(const char* label, const std::vector<std::int64
   const std::size_t bytes = static_cast<std::size_t>(all.count()) * sizeof(T);
   if (bytes >= many_bytes) expect_writes(all.entries.data(), bytes, threads_for(all.count()));
   return all;
+}
+
+/// Calls visit(rank, entry) for all that was received.
+template <class T, class Visit>
+void for_each_received(const EntriesByRank<T>& received, const Visit& visit) {
+  for (int rank = 0; rank + 1 < static_cast<int>(received.begin.size()); ++rank) {
+    for (Offset i = received.begin[rank]; i < received.begin[rank + 1]; ++i) visit(rank, received.entries(i));
+  }
 }
 
 template <class T>

@@ -65,20 +65,16 @@ class HomeTable {
           tabulated<GlobalId>("GALE::known_ids", received.count(), [&](Offset i) { return received.entries(i).id; }));
       index_ = GlobalIndex(distinct.ids);
       entries_ = allocate<Array<Entry, HostMemory>>("GALE::home_entries", index_.count());
-      const auto rank_of = [&](Offset at) {
-        const auto next = std::upper_bound(received.begin.begin(), received.begin.end(), at);
-        return static_cast<int>(next - received.begin.begin()) - 1;
-      };
       parallel_for("GALE::home_entries", HostExecutionSpace(), index_.count(), [&](Offset i) {
         const Id at = distinct.places(i);
-        entries_(i) = entry_from(rank_of(at), received.entries(at).what);
+        entries_(i) = entry_from(received.rank_of(at), received.entries(at).what);
       });
       if (std::is_same_v<VisitOther, Nobody> || index_.count() == received.count()) return;
       const auto place_of = [&](Offset at) { return index_.find(received.entries(at).id); };
       const auto others = collected<Id>("GALE::other_entries", received.count(), [&](Offset at, const auto& add) {
         if (distinct.places(place_of(at)) != at) add(static_cast<Id>(at));
       });
-      for (const Id at : others) visit_other(rank_of(at), received.entries(at).what, entries_(place_of(at)));
+      for (const Id at : others) visit_other(received.rank_of(at), received.entries(at).what, entries_(place_of(at)));
     });
   }
 

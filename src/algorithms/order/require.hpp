@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <string>
 
 #include <gale/base/error.hpp>
@@ -24,6 +25,17 @@ inline void require_whole_mesh(const std::string& what, const Mesh& mesh, const 
   if (ranks == 1) return;
   throw SharedError(what + " can't be found of one rank's part of a mesh: it lies on " + std::to_string(ranks) +
                     " ranks" + instead);
+}
+
+/// What is wrong with a vertex whose value is NaN.
+inline std::string without_value(GlobalId vertex) {
+  return "vertex " + std::to_string(vertex) + " has no field value: it is NaN";
+}
+
+/// The value at a vertex. Throws gale::Error if it is NaN.
+inline double known_value(double value, GlobalId vertex) {
+  if (std::isnan(value)) throw Error(without_value(vertex));
+  return value;
 }
 
 }  // namespace gale::detail
