@@ -40,6 +40,23 @@ std::pair<dev_t, ino_t> identity_of(const std::string& path) {
 
 }  // namespace
 
+WrittenFiles files_written(const std::vector<std::string>& named, std::size_t steps, const Ranks& ranks) {
+  WrittenFiles written;
+  const auto add = [&](const std::string& file, int writer) {
+    written.all.push_back(file);
+    if (writer == ranks.rank()) written.own.push_back(file);
+  };
+  for (const std::string& file : named) {
+    for (std::size_t step = 0; step < std::max<std::size_t>(steps, 1); ++step) {
+      const std::string here = steps > 0 ? name_of_step(file, step) : file;
+      add(here, 0);
+      for (int rank = 0; rank < ranks.size() && has_pieces(here); ++rank) add(piece_of(here, rank), rank);
+    }
+    if (steps > 0 && !name_of_series(file).empty()) add(name_of_series(file), 0);
+  }
+  return written;
+}
+
 void require_distinct(const std::vector<std::string>& files, const std::vector<std::string>& inputs) {
   std::set<fs::path> all;
   std::set<std::pair<dev_t, ino_t>> read;

@@ -4,9 +4,20 @@
 #include <string>
 #include <vector>
 
+#include <gale/mesh/ranks.hpp>
+
 // What files are called that stand for one that the command line names: of a step, of a rank, and what names these.
 
 namespace gale::app {
+
+/// Files that are written, and those of them that a rank writes itself.
+struct WrittenFiles {
+  std::vector<std::string> all, own;
+};
+
+/// The files that stand for those that the command line names: for each of so many steps its own, and what names these;
+/// for 0 one of all. On several ranks also the pieces; what names these the first rank writes.
+WrittenFiles files_written(const std::vector<std::string>& named, std::size_t steps, const Ranks& ranks);
 
 /// Throws UsageError if two of the files are the same, or if one is an input, by whatever link or spelling.
 void require_distinct(const std::vector<std::string>& files, const std::vector<std::string>& inputs);

@@ -93,6 +93,13 @@ Json to_json(const StructureStatistics& statistics) {
           {"host_block_bytes", statistics.host_bytes}};
 }
 
+/// By rank the least, the median and the most.
+Json spread_of(std::vector<std::int64_t> by_rank, double unit) {
+  std::sort(by_rank.begin(), by_rank.end());
+  const auto value = [&](std::size_t at) { return unit == 1 ? Json(by_rank[at]) : Json(unit * double(by_rank[at])); };
+  return {{"least", value(0)}, {"median", value(by_rank.size() / 2)}, {"most", value(by_rank.size() - 1)}};
+}
+
 }  // namespace
 
 Json to_json(const Report& report) {
@@ -156,6 +163,27 @@ void write_report(const io::AtomicFile& file, const Report& report) {
   // Names of files and arrays need not be UTF-8, as JSON must be.
   const std::string text = to_json(report).dump(2, ' ', false, Json::error_handler_t::replace);
   write_text(file, [&](std::ostream& out) { out << text << '\n'; });
+}
+
+Json differences_of_ranks(const Ranks& ranks, const Mesh& part, const Seconds& seconds) {
+  const auto by_rank = [&](double value, double unit = 1) {
+    return spread_of(ranks.all(static_cast<std::int64_t>(value / unit)), unit);
+  };
+  constexpr double microsecond = 1e-6;
+  const auto on_device = device_peak_bytes();
+  return {{"count", ranks.size()},
+          {"owned_vertices", by_rank(part.owned_vertices().size())},
+          {part.dimension() == 3 ? "tetrahedra" : "triangles", by_rank(part.cells())},
+          {"host_peak_bytes", by_rank(static_cast<double>(host_peak_bytes()))},
+          {"device_peak_bytes", on_device ? by_rank(static_cast<double>(*on_device)) : Json(nullptr)},
+          {"sent_messages", by_rank(static_cast<double>(ranks.sent().messages))},
+          {"sent_bytes", by_rank(static_cast<double>(ranks.sent().bytes))},
+          {"gathered_bytes", by_rank(static_cast<double>(ranks.sent().gathered))},
+          {"reading", by_rank(seconds.read, microsecond)},
+          {"initializing", by_rank(seconds.initialize, microsecond)},
+          {"running", by_rank(seconds.run, microsecond)},
+          {"writing", by_rank(seconds.write, microsecond)},
+          {"waiting", by_rank(ranks.sent().seconds_waiting, microsecond)}};
 }
 
 }  // namespace gale::app

@@ -10,6 +10,8 @@
 
 #include <gale/io/atomic_file.hpp>
 #include <gale/io/read.hpp>
+#include <gale/mesh/mesh.hpp>
+#include <gale/mesh/ranks.hpp>
 #include <gale/runtime/structure.hpp>
 
 namespace gale::app {
@@ -64,6 +66,10 @@ nlohmann::ordered_json to_json(const Report& report);
 /// Puts into the report how the structure worked, and how many edges and triangles it had to enumerate; not its
 /// notices.
 void report_structure(const Structure& structure, Report& report);
+
+/// What differs between ranks: how much of the mesh each has as its part, took, sent and waited; of each the least, the
+/// median and the most. Collective.
+nlohmann::ordered_json differences_of_ranks(const Ranks& ranks, const Mesh& part, const Seconds& seconds);
 
 /// Writes what `write` puts out to the temporary of `file`. Throws gale::Error, naming the file, with the system's
 /// reason, as soon as something can't be written; whatever `write` throws, too.

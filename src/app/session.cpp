@@ -23,15 +23,6 @@ void write_to(const io::AtomicFile& file, const io::PointSet& points) { io::writ
 void write_to(const io::AtomicFile& file, const io::Surface& surface) { io::write_surface(file, surface); }
 void write_to(const io::AtomicFile& file, const io::Dataset& piece) { io::write_piece(file, piece); }
 
-/// By rank the least, the median and the most.
-nlohmann::ordered_json spread_of(std::vector<std::int64_t> by_rank, double unit) {
-  std::sort(by_rank.begin(), by_rank.end());
-  const auto value = [&](std::size_t at) {
-    return unit == 1 ? nlohmann::ordered_json(by_rank[at]) : nlohmann::ordered_json(unit * double(by_rank[at]));
-  };
-  return {{"least", value(0)}, {"median", value(by_rank.size() / 2)}, {"most", value(by_rank.size() - 1)}};
-}
-
 /// Does what detail::together does, but for UsageError: all ranks throw that then.
 template <class Action>
 void use_together(const Ranks& ranks, const Action& action) {
@@ -66,25 +57,15 @@ Session::Session(const InputOptions& input, const CommonOptions& common, std::ve
     is_series_ = steps.are_series;
     numbers_files_ = is_series_ && outputs == Outputs::of_each_step;
     steps_ = std::move(steps.all);
-    std::vector<std::string> all, mine, inputs = input.inputs;
+    std::vector<std::string> inputs = input.inputs;
     inputs.insert(inputs.end(), steps.not_chosen.begin(), steps.not_chosen.end());
-    const auto add = [&](const std::string& file, int writer) {
-      all.push_back(file);
-      if (writer == ranks_.rank()) mine.push_back(file);
-    };
     for (const io::Step& step : steps_) inputs.push_back(step.file);
-    for (const std::string& file : files) {
-      for (std::size_t step = 0; step < (numbers_files_ ? steps_.size() : 1); ++step) {
-        const std::string here = numbers_files_ ? name_of_step(file, step) : file;
-        add(here, 0);
-        for (int rank = 0; rank < ranks_.size() && has_pieces(here); ++rank) add(piece_of(here, rank), rank);
-      }
-      if (numbers_files_ && !name_of_series(file).empty()) add(name_of_series(file), 0);
-    }
-    if (!common.report.empty()) add(common.report, 0);
-    if (Launch::is_first()) require_distinct(all, inputs);
-    for (const std::string& file : mine) io::AtomicFiles().add(file);  // throws if it can't be made there now
-    input_.read.outputs = std::move(all);
+    WrittenFiles written = files_written(files, numbers_files_ ? steps_.size() : 0, ranks_);
+    if (!common.report.empty()) written.all.push_back(common.report);
+    if (!common.report.empty() && Launch::is_first()) written.own.push_back(common.report);
+    if (Launch::is_first()) require_distinct(written.all, inputs);
+    for (const std::string& file : written.own) io::AtomicFiles().add(file);  // throws if it can't be made there now
+    input_.read.outputs = std::move(written.all);
   });
   begin_reading();
 }
@@ -325,7 +306,7 @@ template void Session::write_one(const std::string&, const io::Dataset&);
 
 void Session::finish(const Structure* structure) {
   if (part_) {
-    report_.ranks = differences_of_ranks();
+    report_.ranks = differences_of_ranks(ranks_, *part_, report_.seconds);
   } else if (structure != nullptr) {
     report_structure(*structure, report_);
     note(structure->statistics().notices);
@@ -343,29 +324,6 @@ void Session::finish(const Structure* structure) {
   begin_step("writing", "the files");
   appear(results);
   end_steps();
-}
-
-nlohmann::ordered_json Session::differences_of_ranks() const {
-  const auto by_rank = [&](double value, double unit = 1) {
-    return spread_of(ranks_.all(static_cast<std::int64_t>(value / unit)), unit);
-  };
-  constexpr double microsecond = 1e-6;
-  const Seconds& seconds = report_.seconds;
-  const double waited = ranks_.sent().seconds_waiting;
-  const auto on_device = device_peak_bytes();
-  return {{"count", ranks_.size()},
-          {"owned_vertices", by_rank(part_->owned_vertices().size())},
-          {part_->dimension() == 3 ? "tetrahedra" : "triangles", by_rank(part_->cells())},
-          {"host_peak_bytes", by_rank(static_cast<double>(host_peak_bytes()))},
-          {"device_peak_bytes", on_device ? by_rank(static_cast<double>(*on_device)) : nlohmann::ordered_json(nullptr)},
-          {"sent_messages", by_rank(static_cast<double>(ranks_.sent().messages))},
-          {"sent_bytes", by_rank(static_cast<double>(ranks_.sent().bytes))},
-          {"gathered_bytes", by_rank(static_cast<double>(ranks_.sent().gathered))},
-          {"reading", by_rank(seconds.read, microsecond)},
-          {"initializing", by_rank(seconds.initialize, microsecond)},
-          {"running", by_rank(seconds.run, microsecond)},
-          {"writing", by_rank(seconds.write, microsecond)},
-          {"waiting", by_rank(waited, microsecond)}};
 }
 
 void Session::tell_costs() {

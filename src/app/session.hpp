@@ -205,7 +205,6 @@ class Session {
 
   /// Says how long it took, and how much memory.
   void tell_costs();
-  nlohmann::ordered_json differences_of_ranks() const;
 
   /// Makes all files appear, or none; says so of the first ones.
   void appear(std::size_t results);
