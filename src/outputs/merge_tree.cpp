@@ -3,7 +3,9 @@
 #include <utility>
 
 #include <gale/algorithms/excerpt/gathering.hpp>
+#include <gale/base/bits.hpp>
 #include <gale/base/error.hpp>
+#include <gale/base/hash_table.hpp>
 #include <gale/base/sort.hpp>
 #include <gale/mesh/exchange/messages.hpp>
 #include <gale/mesh/positions.hpp>
@@ -66,35 +68,38 @@ std::vector<Id> arcs_of_nodes(const MergeTree& tree) {
   return arc_of;
 }
 
-/// Sums over the vertices of equally high parts of arcs.
+/// Sums over the vertices of equally high parts of arcs, for the parts that have any.
 class ArcSamples {
  public:
   ArcSamples(const io::Dataset& dataset, const io::PointArray& field, const MergeTree& tree, int samples,
              const std::vector<ArcVertex>& gathered)
-      : samples_(samples), sums_(samples > 0 ? tree.arcs.size() * samples : 0) {
-    if (sums_.empty()) return;
+      : samples_(samples) {
+    if (samples == 0) return;
     for (const ArcVertex& vertex : gathered) add(field, tree, vertex);
-    if (tree.excerpt) return;
-    std::vector<bool> is_node(tree.arc_of.size(), false);
-    for (const Id vertex : tree.vertices) is_node[vertex] = true;
-    for (std::size_t v = 0; v < is_node.size(); ++v) {
-      const Id vertex = static_cast<Id>(v);
-      if (!is_node[v]) add(field, tree, {vertex, tree.arc_of[v], value_at(field, vertex), position(dataset, vertex)});
+    if (!tree.excerpt) {
+      std::vector<bool> is_node(tree.arc_of.size(), false);
+      for (const Id vertex : tree.vertices) is_node[vertex] = true;
+      for (std::size_t v = 0; v < is_node.size(); ++v) {
+        const Id vertex = static_cast<Id>(v);
+        if (!is_node[v]) add(field, tree, {vertex, tree.arc_of[v], value_at(field, vertex), position(dataset, vertex)});
+      }
     }
+    parallel_sort("GALE::sort_arc_samples", sums_.begin(), sums_.end(),
+                  [](const Sum& a, const Sum& b) { return a.part < b.part; });
   }
 
   /// Calls visit(position, value) for the parts of an arc that have vertices, upwards.
   template <class Visit>
-  void for_each(std::size_t arc, const Visit& visit) const {
-    for (int i = 0; i < samples_; ++i) {
-      const Sum& sum = sums_[arc * samples_ + i];
-      if (sum.count == 0) continue;
-      visit(Point{sum.at[0] / sum.count, sum.at[1] / sum.count, sum.at[2] / sum.count}, sum.value / sum.count);
-    }
+  void for_each(Id arc, const Visit& visit) const {
+    auto sum = std::lower_bound(sums_.begin(), sums_.end(), pair_key(arc, 0),
+                                [](const Sum& one, std::uint64_t part) { return one.part < part; });
+    for (; sum != sums_.end() && pair_first(sum->part) == arc; ++sum)
+      visit(Point{sum->at[0] / sum->count, sum->at[1] / sum->count, sum->at[2] / sum->count}, sum->value / sum->count);
   }
 
  private:
   struct Sum {
+    std::uint64_t part;  ///< of an arc, as pair_key has them
     Point at{};
     double value = 0;
     Id count = 0;
@@ -103,16 +108,22 @@ class ArcSamples {
   void add(const io::PointArray& field, const MergeTree& tree, const ArcVertex& vertex) {
     const MergeArc& arc = tree.arcs[vertex.arc];
     const double low = value_at(field, tree.vertices[arc.lower]), high = value_at(field, tree.vertices[arc.upper]);
-    const double part = (vertex.value - low) / (high - low) * samples_;  // NaN where nothing has a height
-    Sum& sum = sums_[static_cast<std::size_t>(vertex.arc) * samples_ +
-                     (part > 0 ? static_cast<int>(std::min(part, samples_ - 1.0)) : 0)];
+    const double height = (vertex.value - low) / (high - low) * samples_;  // NaN where nothing has a height
+    const std::uint64_t part = pair_key(vertex.arc, height > 0 ? static_cast<Id>(std::min(height, samples_ - 1.0)) : 0);
+    const auto [place, is_new] = places_.insert(part);
+    if (is_new) {
+      place = static_cast<Id>(sums_.size());
+      sums_.push_back({part});
+    }
+    Sum& sum = sums_[place];
     for (int axis = 0; axis < 3; ++axis) sum.at[axis] += vertex.at[axis];
     sum.value += vertex.value;
     ++sum.count;
   }
 
   const int samples_;
-  std::vector<Sum> sums_;  ///< arc after arc, upwards
+  HashTable<Id> places_;  ///< of parts among the sums
+  std::vector<Sum> sums_;
 };
 
 }  // namespace
@@ -203,7 +214,7 @@ io::Surface tree_arcs(const io::Dataset& dataset, const io::PointArray& field, c
   for (std::size_t i = 0; i < tree.arcs.size(); ++i) {
     const MergeArc& arc = tree.arcs[i];
     lines.lines.points.push_back(arc.lower);
-    between.for_each(i, [&](const Point& at, double value) {
+    between.for_each(static_cast<Id>(i), [&](const Point& at, double value) {
       lines.lines.points.push_back(static_cast<Id>(points.size()));
       points.push_back(at);
       values.push_back(value);

@@ -1,9 +1,11 @@
 #include <cmath>
+#include <numeric>
 
 #include <gtest/gtest.h>
 
 #include <gale/algorithms/merge_tree.hpp>
 #include <gale/base/error.hpp>
+#include <gale/base/ordered.hpp>
 #include <gale/io/synthetic.hpp>
 #include <gale/mesh/make_mesh.hpp>
 
@@ -131,6 +133,61 @@ TEST(MergeTree, of_any_triangles_are_those_of_brute_force) {
     const InputSurface surface = random_surface(seed);
     const Field field{"random", random_field(points_of_surface(surface), seed)};
     expect_trees(encode(surface, 8), {field}, neighbours_on_surface(surface), {Tree::join, Tree::split});
+  }
+}
+
+/// There join and split trees may leave nodes without an arc: they hang on others, which vertices in between belong to.
+TEST(MergeTree, of_level_sets_is_one_for_each_component_where_a_mesh_has_holes_too) {
+  constexpr Id around = 8, across = 2;
+  InputSurface ring;
+  for (Id i = 0; i < across; ++i) {
+    for (Id j = 0; j < around; ++j) {
+      const double angle = 6.283185307179586 * j / around, radius = 1.0 + i;
+      ring.points.push_back({radius * std::cos(angle), radius * std::sin(angle), 0});
+    }
+  }
+  for (Id j = 0; j < around; ++j) {
+    const Id next = (j + 1) % around;
+    ring.triangles.push_back({j, around + j, around + next});
+    ring.triangles.push_back({j, around + next, next});
+  }
+  const auto expect_trees_of_components = [](const InputSurface& surface, const std::vector<double>& field) {
+    const auto neighbours = neighbours_on_surface(surface);
+    const Mesh mesh = encode(surface, 8);
+    const MergeTree tree = find_merge_tree(VertexOrder(mesh, field.data(), field.size()), Tree::contour);
+    const auto components = [](std::vector<Id> parents, const auto& visit_pairs) {
+      std::size_t count = parents.size();
+      visit_pairs([&](Id a, Id b) {
+        const Id one = root_of(parents, a), other = root_of(parents, b);
+        count -= one != other;
+        parents[one] = other;
+      });
+      return count;
+    };
+    std::vector<Id> each(std::max(tree.vertices.size(), neighbours.size()));
+    std::iota(each.begin(), each.end(), Id(0));
+    const auto of_mesh = components({each.begin(), each.begin() + static_cast<std::ptrdiff_t>(neighbours.size())},
+                                    [&](const auto& visit) {
+                                      for (std::size_t v = 0; v < neighbours.size(); ++v)
+                                        for (const Id other : neighbours[v]) visit(static_cast<Id>(v), other);
+                                    });
+    const auto of_tree = components({each.begin(), each.begin() + static_cast<std::ptrdiff_t>(tree.vertices.size())},
+                                    [&](const auto& visit) {
+                                      for (const MergeArc& arc : tree.arcs) visit(arc.lower, arc.upper);
+                                    });
+    EXPECT_EQ(of_tree, of_mesh);
+    EXPECT_EQ(tree.arcs.size() + of_mesh, tree.vertices.size()) << "no loops";
+    Id on_arcs = 0;
+    for (const MergeArc& arc : tree.arcs) on_arcs += arc.size;
+    EXPECT_EQ(on_arcs + static_cast<Id>(tree.vertices.size()), mesh.vertices());
+    for (std::size_t v = 0; v < neighbours.size(); ++v) EXPECT_EQ(tree.arc_of[v] == no_id, neighbours[v].empty()) << v;
+  };
+  expect_trees_of_components(ring, {2, 11, 3, 10, 0, 4, 7, 5, 14, 12, 6, 9, 13, 8, 1, 15});
+  for (unsigned seed = 0; seed < 300; ++seed) {
+    SCOPED_TRACE(seed);
+    expect_trees_of_components(ring, random_field(points_of_surface(ring), seed));
+    const InputSurface any = random_surface(seed);
+    expect_trees_of_components(any, random_field(points_of_surface(any), seed));
   }
 }
 

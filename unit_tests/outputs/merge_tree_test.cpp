@@ -1,3 +1,5 @@
+#include <limits>
+
 #include <gtest/gtest.h>
 
 #include <gale/outputs/merge_tree.hpp>
@@ -61,6 +63,8 @@ TEST(TreeArcs, go_over_barycentres_of_parts_that_are_equally_high) {
   EXPECT_EQ(values_of<std::int8_t>(sampled.point_arrays, "RegularMask"), (std::vector<std::int8_t>{0, 0, 0, 0, 1, 1}));
   const io::Surface finer = outputs::tree_arcs(of.dataset, of.field, tree, 3);
   EXPECT_EQ(finer.lines.points, (std::vector<std::int32_t>{0, 2, 1, 4, 5, 2, 2, 6, 3})) << "empty parts have no point";
+  const io::Surface finest = outputs::tree_arcs(of.dataset, of.field, tree, std::numeric_limits<int>::max());
+  EXPECT_EQ(finest.lines.points, finer.lines.points) << "which takes no memory for what is empty";
   EXPECT_EQ(values_of<Id>(sampled.cell_arrays, "upNodeId"), (std::vector<Id>{2, 2, 3}));
   EXPECT_EQ(values_of<Id>(sampled.cell_arrays, "downNodeId"), (std::vector<Id>{0, 1, 2}));
   EXPECT_EQ(values_of<Id>(sampled.cell_arrays, "RegionSize"), (std::vector<Id>{0, 2, 1}));

@@ -20,27 +20,57 @@ ContourArcs contour_arcs(const std::array<std::vector<Id>, 2>& parents) {
       if (parent != no_id) ++children[side][parent];
     }
   }
-  const auto is_leaf = [&](Id node) { return children[below][node] + children[above][node] == 1; };
+  const auto is_leaf = [&](Id node) { return children[below][node] + children[above][node] <= 1; };
   std::vector<Id> leaves;
   std::vector<bool> is_gone(count, false);
   for (Id node = 0; node < count; ++node) {
     if (is_leaf(node)) leaves.push_back(node);
   }
+  const auto next_left = [&](Side side, Id node) {
+    do {
+      node = parents[side][node];
+    } while (node != no_id && is_gone[node]);
+    return node;
+  };
+  struct Way {
+    Side side;
+    Id first, end, arc;
+  };
+  std::vector<Way> left_over;
+  // Nodes that are gone lie on the arc that others have become.
+  const auto take = [&](const Way& way) {
+    for (Id at = way.first; at != way.end; at = parents[way.side][at]) arcs.taken_by[way.side][at] = way.arc;
+  };
+  const auto lose_child = [&](Side side, Id node) {
+    --children[side][node];
+    if (is_leaf(node)) leaves.push_back(node);
+  };
   for (std::size_t next = 0; next < leaves.size(); ++next) {
     stop_if_asked_at(static_cast<std::int64_t>(next));
     const Id leaf = leaves[next];
-    if (!is_leaf(leaf)) continue;  // the last of its tree
-    const Side side = children[above][leaf] == 0 ? above : below;
+    if (is_gone[leaf]) continue;
     const auto arc = static_cast<Id>(arcs.ends.size());
-    Id at = leaf;
-    do {  // nodes that are gone lie on the arc that others have become
-      arcs.taken_by[side][at] = arc;
-      at = parents[side][at];
-    } while (is_gone[at]);
+    Side side = children[above][leaf] == 0 ? above : below;
+    Id at = next_left(side, leaf);
+    if (children[below][leaf] == 0 && side == above) {  // the last of its tree; in a mesh with holes others, too
+      Side other = below;
+      Id beyond = next_left(other, leaf);
+      if (at == no_id) {
+        std::swap(side, other);
+        std::swap(at, beyond);
+      }
+      if (at == no_id) continue;
+      left_over.push_back({other, leaf, beyond, arc});
+      if (beyond != no_id) lose_child(other, beyond);
+    }
+    take({side, leaf, at, arc});
     arcs.ends.emplace_back(std::min(leaf, at), std::max(leaf, at));
     is_gone[leaf] = true;
-    --children[side][at];
-    if (is_leaf(at)) leaves.push_back(at);
+    lose_child(side, at);
+  }
+  for (Way& way : left_over) {
+    way.arc += static_cast<Id>(arcs.ends.size());
+    take(way);
   }
   return arcs;
 }

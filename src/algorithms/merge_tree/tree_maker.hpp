@@ -177,7 +177,7 @@ class TreeMaker {
     MergeTree tree = tree_of(std::move(vertices), arcs.ends, place);
     for (const Side side : {below, above}) {
       for (const Id by : arcs.taken_by[side])
-        claims[side].push_back(by == ContourArcs::nobody ? no_claim : pair_key(by, place[by]));
+        claims[side].push_back(by == ContourArcs::nobody ? no_claim : pair_key(by, place[arcs.arc_of(by)]));
     }
     return tree;
   }
