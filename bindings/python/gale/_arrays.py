@@ -89,6 +89,11 @@ def points(array: Any) -> Any:
     return _converted(array, np.dtype(np.float32 if array.dtype == np.float32 else np.float64))
 
 
+def _require_64_bits(array: np.ndarray, have: str) -> None:
+    if array.dtype == np.uint64 and array.size > 0 and array.max() > np.iinfo(np.int64).max:
+        raise Error(f"{have} {array.max()}, which is too large for any mesh")
+
+
 def ids(array: Any, name: str = "tetrahedra") -> Any:
     """As int32 or int64, from any integers."""
     on_device = _device_array(array)
@@ -97,8 +102,7 @@ def ids(array: Any, name: str = "tetrahedra") -> Any:
     array = _host_array(array)
     if array.dtype.kind not in "iu":
         raise Error(f"{name} of {array.dtype} are not integers: they are ids of vertices, numbers of points from 0")
-    if array.dtype.kind == "u" and array.dtype.itemsize == 8 and array.size > 0 and array.max() > np.iinfo(np.int64).max:
-        raise Error(f"{name} have a vertex {array.max()}, which is too large for any mesh")
+    _require_64_bits(array, f"{name} have a vertex")
     return _converted(array, np.dtype(np.int32 if array.dtype == np.int32 else np.int64))
 
 
@@ -107,6 +111,7 @@ def offsets(array: Any) -> Any:
     array = _host_array(array)
     if array.dtype.kind not in "iu":
         raise Error(f"offsets of {array.dtype} are not integers: they say where each cell begins")
+    _require_64_bits(array, "offsets have")
     return _converted(array, np.dtype(np.int64))
 
 

@@ -2,6 +2,8 @@
 from __future__ import annotations
 
 import inspect
+import numbers
+import operator
 import os
 import warnings
 from typing import Any, Callable, Dict, Iterable, Iterator, List, Optional, Sequence, Tuple, TypeVar, Union
@@ -74,8 +76,27 @@ def _persistence(threshold: Optional[Persistence]) -> Dict[str, Tuple[float, boo
     return {"persistence": (value, is_percent)}
 
 
+def _flag(name: str, value: Any) -> bool:
+    if isinstance(value, (bool, np.bool_)):
+        return bool(value)
+    raise TypeError(f"{name} is {value!r}, neither True nor False")
+
+
+def _text(name: str, value: Any) -> str:
+    if isinstance(value, str):
+        return value
+    raise TypeError(f"{name} is {value!r}, which is no str")
+
+
+def _whole(name: str, value: Any) -> int:
+    try:
+        return operator.index(value)
+    except TypeError:
+        raise TypeError(f"{name} is {value!r}, which is no whole number") from None
+
+
 _POLYHEDRON = 42
-_STRIP, _POLYGON = 6, 7
+_POINTS, _LINE, _STRIP, _POLYGON = 2, 4, 6, 7
 
 
 def _cells_of(grid: Any) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -84,6 +105,7 @@ def _cells_of(grid: Any) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
 
     if grid.GetNumberOfCells() == 0:
         raise Error("the grid has no cells")
+    _require_points(grid)  # VTK 9.7 asks for the types of cells at points
     connectivity = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
     offsets = vtk_to_numpy(grid.GetCells().GetOffsetsArray())
     has_distinct = hasattr(grid, "GetDistinctCellTypesArray")  # newer VTKs have no type for each cell where all agree
@@ -121,11 +143,17 @@ def _with_faces(grid: Any, connectivity: np.ndarray, offsets: np.ndarray,
     return np.concatenate(parts), np.concatenate([[0], np.cumsum(sizes)])
 
 
+def _require_points(grid: Any) -> None:
+    if grid.GetPoints() is None:
+        raise Error("the grid has no points")
+
+
 def _points_of(grid: Any) -> np.ndarray:
     """The points of a grid of any kind."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
 
     if grid.IsA("vtkPointSet"):
+        _require_points(grid)
         return vtk_to_numpy(grid.GetPoints().GetData())
     if grid.IsA("vtkRectilinearGrid"):
         axes = [vtk_to_numpy(axis) for axis in (grid.GetXCoordinates(), grid.GetYCoordinates(), grid.GetZCoordinates())]
@@ -142,16 +170,18 @@ def _points_of(grid: Any) -> np.ndarray:
 
 
 def _surface_cells(surface: Any) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """(connectivity, offsets, types) of the polygons and strips of a surface; other cells of it are left out."""
+    """(connectivity, offsets, types) of the cells of a surface, as VTK numbers them."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
 
-    parts = [(surface.GetPolys(), _POLYGON), (surface.GetStrips(), _STRIP)]
-    if sum(cells.GetNumberOfCells() for cells, _ in parts) == 0:
+    if surface.GetNumberOfPolys() + surface.GetNumberOfStrips() == 0:
         raise Error("the surface has no polygons")
+    parts = [(surface.GetVerts(), _POINTS), (surface.GetLines(), _LINE), (surface.GetPolys(), _POLYGON),
+             (surface.GetStrips(), _STRIP)]
+    counts = [cells.GetNumberOfCells() for cells, _ in parts]
     connectivity = [vtk_to_numpy(cells.GetConnectivityArray()) for cells, _ in parts]
-    offsets = [vtk_to_numpy(cells.GetOffsetsArray())[:cells.GetNumberOfCells() + 1] for cells, _ in parts]
-    types = np.repeat(np.array([_POLYGON, _STRIP], np.uint8), [cells.GetNumberOfCells() for cells, _ in parts])
-    return (np.concatenate(connectivity), np.concatenate([offsets[0], offsets[1][1:] + len(connectivity[0])]), types)
+    sizes = [np.diff(vtk_to_numpy(cells.GetOffsetsArray())[:count + 1]) for (cells, _), count in zip(parts, counts)]
+    types = np.repeat(np.array([kind for _, kind in parts], np.uint8), counts)
+    return np.concatenate(connectivity), np.concatenate([[0], np.cumsum(np.concatenate(sizes))]), types
 
 
 # VTK's numbers of what meshio calls cells; it orders their points as VTK does.
@@ -165,12 +195,14 @@ def _meshio_cells(mesh: Any) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
     for block in mesh.cells:
         if block.type not in _MESHIO_TYPES:
             raise Error(f"cells of meshio's type {block.type!r} can't be split: it takes {', '.join(_MESHIO_TYPES)}")
-        corners = np.asarray(block.data)
+        if len(block.data) == 0:
+            continue
+        corners = _arrays.ids(np.asarray(block.data), f"cells of meshio's type {block.type!r}")
         connectivity.append(corners.ravel())
         sizes.append(np.full(len(corners), corners.shape[1] if corners.ndim == 2 else 1, np.int64))
         types.append(np.full(len(corners), _MESHIO_TYPES[block.type], np.uint8))
     offsets = np.concatenate([[0], np.cumsum(np.concatenate(sizes))])
-    return np.concatenate(connectivity).astype(np.int64), offsets, np.concatenate(types)
+    return np.concatenate(connectivity), offsets, np.concatenate(types)
 
 
 def _joined(of: Any, points: List[Any], corners: List[Any], capacity: int, cells: Optional[np.ndarray] = None) -> Any:
@@ -198,10 +230,9 @@ class Mesh:
 
     _mesh: _gale.Mesh
     _cells: Optional[np.ndarray] = None
-    _of_each_cell: int = 1
 
     def __init__(self, points: Any, cells: Any, capacity: int = 64) -> None:
-        self._mesh = _gale.Mesh(_arrays.points(points), _arrays.ids(cells), capacity)
+        self._mesh = _gale.Mesh(_arrays.points(points), _arrays.ids(cells), _whole("capacity", capacity))
 
     @classmethod
     @_documented()
@@ -233,7 +264,8 @@ class Mesh:
             cells = _cells_of(grid)
             return cls.from_cells(_points_of(grid), *cells, capacity)
         if grid.IsA("vtkPolyData"):
-            return cls.from_cells(_points_of(grid), *_surface_cells(grid), capacity)
+            cells = _surface_cells(grid)
+            return cls.from_cells(_points_of(grid), *cells, capacity)
         if not (grid.IsA("vtkStructuredGrid") or grid.IsA("vtkRectilinearGrid") or grid.IsA("vtkImageData")):
             raise Error(f"what is of {type(grid).__name__} is no unstructured, structured or rectilinear grid, no surface, "
                         "and no image")
@@ -242,9 +274,7 @@ class Mesh:
         along = [count for count in dimensions if count > 1]
         if len(along) < 2:
             raise Error("a grid of {} x {} x {} points has no cells of dimension 2 or 3".format(*dimensions))
-        mesh = cls._of(_gale.from_grid(_arrays.points(_points_of(grid)), *along, *[1] * (3 - len(along)), capacity))
-        mesh._of_each_cell = 6 if len(along) == 3 else 2
-        return mesh
+        return cls._of(_gale.from_grid(_arrays.points(_points_of(grid)), *along, *[1] * (3 - len(along)), capacity))
 
     @classmethod
     @_documented()
@@ -298,24 +328,32 @@ class Mesh:
     @property
     def cells(self) -> np.ndarray:
         """A copy of which of the cells that the mesh was made of each tetrahedron (or triangle) is, or is of: (tetrahedra,)
-        int32."""
+        int32. Of an image, also where a part of it was read, and of grid:N these are its voxels (or pixels)."""
         if self._cells is not None:
             return np.array(self._cells)
-        return np.arange(self._mesh.cells, dtype=np.int32) // self._of_each_cell
+        cubes = self._mesh.cubes()
+        return np.arange(self._mesh.cells, dtype=np.int32) if cubes is None else np.asarray(cubes)
 
     def to_pyvista(self) -> Any:
-        """A pyvista.UnstructuredGrid of the tetrahedra or triangles."""
+        """A pyvista.UnstructuredGrid of the tetrahedra, none of whose volumes is negative, or of the triangles, whose
+        corners ascend: which way they faced isn't kept."""
         import pyvista
 
-        corners = self.dimension + 1
-        cells = self.relation("TV" if corners == 4 else "FV")[1].reshape(-1, corners)
-        return pyvista.UnstructuredGrid({10 if corners == 4 else 5: cells.astype(np.int64)}, self.points)
+        points, cells = self.points, self._corners().astype(np.int64)
+        if self.dimension == 2:
+            return pyvista.UnstructuredGrid({5: cells}, points)
+        a, b, c, d = (points[cells[:, corner]].astype(np.float64) for corner in range(4))
+        is_negative = np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a) < 0
+        cells[is_negative, 2:] = cells[is_negative, :1:-1]
+        return pyvista.UnstructuredGrid({10: cells}, points)
+
+    def _corners(self) -> np.ndarray:
+        """The points of each tetrahedron or triangle, ascending."""
+        return self.relation("TV" if self.dimension == 3 else "FV")[1].reshape(-1, self.dimension + 1)
 
     def __reduce__(self) -> Tuple[Any, ...]:
-        corners = self.dimension + 1
-        cells = self.relation("TV" if corners == 4 else "FV")[1].reshape(-1, corners)
-        return _joined, (type(self), _arrays.pieces(self.points), _arrays.pieces(cells), self._mesh.capacity,
-                         self._cells if self._of_each_cell == 1 else self.cells)
+        return _joined, (type(self), _arrays.pieces(self.points), _arrays.pieces(self._corners()), self._mesh.capacity,
+                         self._mesh.cubes() if self._cells is None else self._cells)
 
     def __copy__(self) -> Mesh:
         return self
@@ -422,9 +460,12 @@ class Mesh:
                  flags: Optional[Dict[str, bool]] = None, thresholds: Optional[Dict[str, Tuple[float, bool]]] = None,
                  choices: Optional[Dict[str, str]] = None, numbers: Optional[Dict[str, int]] = None) -> Dict[str, Any]:
         """What an analysis finds, by the names of its results; with options that aren't given at their defaults."""
+        given = ({key: _flag(key, value) for key, value in (flags or {}).items()}, thresholds or {},
+                 {key: _text(key, value) for key, value in (choices or {}).items()},
+                 {key: _whole(key, value) for key, value in (numbers or {}).items()})
         with told(progress, analysis) as tell:
-            given = flags or {}, thresholds or {}, choices or {}, numbers or {}
-            return self._mesh.analyse(analysis, _arrays.field(field), name, given, threads, tell)
+            return self._mesh.analyse(analysis, _arrays.field(field), _text("name", name), given,
+                                      _whole("threads", threads), tell)
 
 
 @_documented()
@@ -451,7 +492,7 @@ def read_steps(inputs: Union[Path, Sequence[Path]], above: Optional[float] = Non
     A mesh that has the same cells as the step before is not made again, but shares what that one has:
 
     >>> for time, mesh, arrays in gale.read_steps("run.pvd"):
-    ...     print(time, mesh.critical_points(arrays["pressure"]).counts())"""
+    ...     print(time, len(mesh.critical_points(arrays["pressure"])))"""
     paths = [inputs] if isinstance(inputs, (str, os.PathLike)) else list(inputs)
     before = None
     for time, place, at in _gale.steps_of([_place(path) for path in paths], outside_files):
@@ -471,9 +512,16 @@ def track(steps: Iterable[Tuple[float, Mesh, Any]], persistence: Optional[Persis
     >>> tracks.table["End"]                        # 0 at the last step, 1 merged with EndTrack, 2 dead"""
     tracker = _gale.Tracker()
     threshold = _persistence(0 if persistence is None else persistence)["persistence"]
-    for time, mesh, field in steps:
+    before = -np.inf
+    for number, step in enumerate(steps):
+        if not isinstance(step, (tuple, list)) or len(step) != 3 or not isinstance(step[1], Mesh):
+            raise TypeError(f"step {number}, of {type(step).__name__}, is not (time, Mesh, field)")
+        time, mesh, field = step
+        if not float(time) >= before:
+            raise Error(f"the time of step {number}, {time}, is before that of the last one, {before}")
+        before = float(time)
         with told(progress, f"step at {time}") as tell:
-            tracker.add(float(time), mesh._mesh, _arrays.field(field), name, threshold, threads, tell)
+            tracker.add(before, mesh._mesh, _arrays.field(field), name, threshold, threads, tell)
     lines, table = tracker.found()
     return Tracks(Lines(*lines), table)
 
@@ -491,8 +539,11 @@ def _read(path: Path, above: Optional[float], array: str, cells: str, outside_fi
     """A file's mesh, its point arrays and its cells' global ids."""
     if not isinstance(cells, str) or cells not in ("any", "simplices", "tetrahedra"):
         raise Error(f"cells are {cells!r}, neither 'any' nor 'simplices'")
-    inner, arrays, cell_arrays, notices = _gale.read(_place(path), above, array, cells != "any", outside_files, capacity,
-                                                     like, time)
+    if above is not None and not isinstance(above, numbers.Real):
+        raise TypeError(f"above is {above!r}, which is no number")
+    inner, arrays, cell_arrays, notices = _gale.read(
+        _place(path), None if above is None else float(above), _text("array", array), cells != "any",
+        _flag("outside_files", outside_files), _whole("capacity", capacity), like, time)
     name = os.fsdecode(path)
     if array and array not in arrays:
         raise Error(f"{name} has no point array '{array}': it has {', '.join(arrays) or 'none'}")

@@ -36,6 +36,8 @@ class GaleAccessor:
     def _points_changed(self) -> bool:
         parts = [self._grid.GetPoints()] if self._grid.IsA("vtkPointSet") else []
         parts += [self._grid.GetCells()] if self._grid.IsA("vtkUnstructuredGrid") else []
+        if self._grid.IsA("vtkRectilinearGrid"):
+            parts += [self._grid.GetXCoordinates(), self._grid.GetYCoordinates(), self._grid.GetZCoordinates()]
         return self._shape() != self._made_from or any(part.GetMTime() > self._made_at for part in parts)
 
     def _shape(self) -> Tuple[Any, ...]:

@@ -97,6 +97,12 @@ class _Table(_Result):
         return _frame(self._columns())
 
 
+def _beside(columns: Dict[str, np.ndarray], arrays: Dict[str, np.ndarray]) -> Dict[str, np.ndarray]:
+    """Columns, and arrays whose names get an underscore where a column has it."""
+    taken = {part for name in columns for part in [name, *name.split(", ")]}
+    return {**columns, **{name + "_" * (name in taken): values for name, values in arrays.items()}}
+
+
 def _frame(columns: Dict[str, np.ndarray]) -> Any:
     """A pandas.DataFrame; arrays of several components have several columns."""
     import pandas
@@ -176,7 +182,7 @@ class CriticalPoints(_Table):
         return f"{_count(len(self), 'point')}: {', '.join(self.arrays)}"
 
     def _columns(self) -> Dict[str, np.ndarray]:
-        return {"x, y, z": self.points, **self.arrays}
+        return _beside({"x, y, z": self.points}, self.arrays)
 
     def to_pyvista(self) -> Any:
         """A pyvista.PolyData with a vertex for each."""
@@ -229,7 +235,7 @@ class Cells(_Table):
         return f"{_count(len(self), kind)} of {_count(len(self.points), 'point')}: {', '.join(self.cell_arrays)}"
 
     def _columns(self) -> Dict[str, np.ndarray]:
-        return {"points": np.diff(self.offsets), **self.cell_arrays}
+        return _beside({"points": np.diff(self.offsets)}, self.cell_arrays)
 
     def _cells(self) -> List[np.ndarray]:
         """The points of each."""
@@ -452,7 +458,9 @@ class SimplifiedField(_Parts):
     """A field without extrema of little persistence.
 
     values: (vertices,), of the field's type. order: (vertices,) int32, the place of each vertex in an order along which
-    they never fall; as the array NAME_Order it orders the vertices where GALE reads the field NAME from a file. minima,
+    they never fall; as the array NAME_Order it orders the vertices where the command, VTK's filters and ParaView read the
+    field NAME. Methods of gale.Mesh take values alone: where simplifying has made some equal, the vertices' numbers order
+    these, and extrema that were removed may be there again. minima,
     maxima: how many are left. kept_below: how many below the threshold could not be removed."""
 
     values: np.ndarray
@@ -479,7 +487,7 @@ class SimplifiedField(_Parts):
     def plot(self, on: Any = None, file: Any = None) -> Any:
         """Draws how many vertices have which values, on axes of matplotlib's."""
         axes = _pictures.plane_axes(on)
-        axes.hist(self.values, bins=50, color=_pictures.COLORS[4])
+        axes.hist(self.values[np.isfinite(self.values)], bins=50, color=_pictures.COLORS[4])
         axes.set(xlabel="value", ylabel="vertices", title=f"{self.minima} minima, {self.maxima} maxima")
         return _pictures.saved(axes, file)
 

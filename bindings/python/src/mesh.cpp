@@ -7,7 +7,9 @@
 #include <future>
 
 #include <gale/base/error.hpp>
+#include <gale/base/parallel.hpp>
 #include <gale/base/transfer.hpp>
+#include <gale/mesh/grid.hpp>
 #include <gale/mesh/make_mesh.hpp>
 #include <gale/mesh/octree.hpp>
 #include <gale/outputs/field.hpp>
@@ -240,6 +242,20 @@ nb::object PyMesh::points() const {
         return numpy_of(Job().run([&] { return vector_of<Coordinate>(xyz.data(), 3 * xyz.extent(0)); }), 3);
       },
       dataset_.points);
+}
+
+nb::object PyMesh::cubes() const {
+  const Grid* const grid = mesh().grid();
+  if (grid == nullptr) return nb::none();
+  return numpy_of(Job().run([&] {
+    const GridView view = grid->in<HostMemory>();
+    std::vector<Id> cubes(grid->cells());
+    parallel_for("GALE::cubes_of_cells", HostExecutionSpace(), grid->cells(), [&](Offset t) {
+      const auto at = view.place_of_cube(static_cast<Id>(t) / view.cells_per_cube());
+      cubes[t] = at.x + (view.nx - 1) * (at.y + (view.dimension == 3 ? (view.ny - 1) * at.z : 0));
+    });
+    return cubes;
+  }));
 }
 
 io::Dataset PyMesh::with(io::PointArray field) const {

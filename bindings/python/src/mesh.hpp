@@ -44,6 +44,9 @@ class PyMesh : public Kept {
   int capacity() const { return capacity_; }
   nb::object points() const;
 
+  /// The cube, or square, of the whole grid that each cell of a grid is of; None of other meshes.
+  nb::object cubes() const;
+
   /// (where rows begin, their entries, how many simplices the entries are among)
   nb::tuple relation(const std::string& name, int threads, const nb::object& progress) const;
 

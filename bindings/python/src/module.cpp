@@ -69,6 +69,7 @@ NB_MODULE(_gale, module) {
       .def_prop_ro("segments", &PyMesh::segments)
       .def_prop_ro("capacity", &PyMesh::capacity)
       .def("points", &PyMesh::points)
+      .def("cubes", &PyMesh::cubes)
       .def("relation", &PyMesh::relation, "name"_a, "threads"_a, "progress"_a.none())
       .def("analyse", &PyMesh::analyse, "analysis"_a, "field"_a, "name"_a, "given"_a, "threads"_a, "progress"_a.none());
 

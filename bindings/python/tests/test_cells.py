@@ -1,5 +1,6 @@
 """Meshes of hexahedra, polyhedra and other cells."""
 import itertools
+import pathlib
 import pickle
 import tempfile
 import unittest
@@ -116,6 +117,60 @@ class Cells(unittest.TestCase):
         expected = gale.Mesh.from_cells(self.points, *self.cells)
         np.testing.assert_array_equal(mesh.cells, expected.cells)
         self.assertEqual(mesh.critical_points(self.field), expected.critical_points(self.field))
+
+
+class Images(unittest.TestCase):
+    def test_cells_are_voxels_of_the_whole_image(self):
+        field = np.arange(27.0)
+        text = ('<VTKFile type="ImageData" version="0.1" byte_order="LittleEndian"><ImageData WholeExtent="0 2 0 2 0 2" Origin="0 0 0" '
+                'Spacing="1 1 1"><Piece Extent="0 2 0 2 0 2"><PointData Scalars="f"><DataArray type="Float64" Name="f" format="ascii">'
+                + " ".join(map(str, field)) + "</DataArray></PointData></Piece></ImageData></VTKFile>")
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder, "image.vti")
+            file.write_text(text)
+            whole, part = gale.read(file)[0], gale.read(file, above=0.5)[0]  # without the first point
+        np.testing.assert_array_equal(whole.cells, np.repeat(np.arange(8), 6))
+        np.testing.assert_array_equal(part.cells, np.repeat(np.arange(1, 8), 6))
+        np.testing.assert_array_equal(pickle.loads(pickle.dumps(part)).cells, part.cells)
+        for mesh in (whole, part):
+            corners = mesh.points[mesh.relation("TV")[1].reshape(-1, 4)]
+            np.testing.assert_array_equal(corners.min(axis=1) @ [1, 2, 4], mesh.cells)
+
+
+class Pyvista(unittest.TestCase):
+    def setUp(self):
+        try:
+            import pyvista
+        except ImportError:
+            self.skipTest("there is no PyVista")
+        self.pyvista = pyvista
+
+    def test_no_tetrahedron_has_a_negative_volume(self):
+        points = np.array([(x, y, z) for z, y, x in itertools.product(range(3), repeat=3)], float)
+        grid = gale.Mesh.from_cells(points, *hexahedra(3)).to_pyvista()
+        volumes = grid.compute_cell_sizes()["Volume"]
+        np.testing.assert_allclose(volumes, 1 / 6)
+
+    def test_other_cells_of_surfaces_are_counted(self):
+        surface = self.pyvista.PolyData(np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0.0]]), verts=[1, 0], lines=[2, 0, 1],
+                                        faces=[3, 0, 1, 2, 3, 1, 3, 2])
+        with self.assertWarnsRegex(UserWarning, "left out 2 cells of a dimension below 2"):
+            self.assertEqual(gale.Mesh.from_pyvista(surface).cells.tolist(), [2, 3])
+
+    def test_what_has_no_points(self):
+        for grid in (self.pyvista.PolyData(), self.pyvista.UnstructuredGrid(), self.pyvista.StructuredGrid()):
+            with self.assertRaises(gale.Error):
+                gale.Mesh.from_pyvista(grid)
+
+    def test_coordinates_that_were_replaced(self):
+        grid = self.pyvista.RectilinearGrid(*[np.arange(4.0)] * 3)
+        grid["f"] = np.random.default_rng(6).standard_normal(64)
+        if not hasattr(grid, "gale"):
+            self.skipTest("this PyVista has no entry points")
+        grid.gale.critical_points("f")
+        grid.x = np.array([0, 0.1, 0.2, 3])
+        self.assertEqual(grid.gale.mesh.points[:, 0].max(), 3)
+        self.assertEqual(grid.gale.mesh.points[1, 0], 0.1)
 
 
 class Grids(unittest.TestCase):

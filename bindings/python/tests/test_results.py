@@ -55,6 +55,11 @@ class Results(unittest.TestCase):
         self.assertNotIn("<script>", html)
         self.assertEqual(html.count("<tr>"), 1 + min(len(critical), 10) + (len(critical) > 10))
 
+    def test_no_column_hides_another(self):
+        points, cells, field = random_mesh(1)
+        found = gale.Mesh(points, cells).critical_points(field, name="x")
+        self.assertEqual(list(found._columns()), ["x, y, z", "x_", "CriticalType", "IsOnBoundary", "ttkVertexScalarField"])
+
     def test_names_lead_to_what_is_there(self):
         for one in self.all:
             self.assertEqual(list(one), list(one.keys()))

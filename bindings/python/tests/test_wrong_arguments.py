@@ -130,6 +130,21 @@ class WrongArguments(unittest.TestCase):
                                  grid.gale.morse_smale, grid.gale.merge_tree, grid.gale.simplify_field):
                     self.refused(lambda: function(wrong), "it has height$")
 
+    def test_types_are_named_in_a_line(self):
+        mesh = gale.Mesh(POINTS, TETRAHEDRA)
+        for wrong, says in (({"threads": 2.0}, "threads is 2.0, which is no whole number"), ({"name": 3}, "name is 3, which is no str"),
+                            ({"extrema_only": 1}, "extrema_only is 1, neither True nor False")):
+            with self.assertRaises(TypeError) as caught:
+                mesh.morse_smale(FIELD, **wrong)
+            self.assertEqual(str(caught.exception), says)
+        mesh.morse_smale(FIELD, extrema_only=np.True_)
+        with self.assertRaisesRegex(TypeError, "step 0, of tuple, is not"):
+            gale.track([(0, POINTS, FIELD)])
+        with self.assertRaisesRegex(gale.Error, "the time of step 1, 0, is before that of the last one, 1.0"):
+            gale.track([(1, mesh, FIELD), (0, mesh, FIELD)])
+        with self.assertRaisesRegex(gale.Error, "offsets have 18446744073709551615, which is too large"):
+            gale.Mesh.from_cells(POINTS, TETRAHEDRA[:2].ravel(), np.array([0, 4, 2**64 - 1], np.uint64), [10, 10])
+
     def test_unknown_names_say_which_there_are(self):
         found = MESH.morse_smale(FIELD, separatrices2=True)
         for result in (found, found.critical_points, found.separatrices1, found.separatrices2, MESH.critical_points(FIELD),
