@@ -16,7 +16,7 @@ struct WrittenFiles {
 };
 
 /// The files that stand for those that the command line names: for each of so many steps its own, and what names these;
-/// for 0 one of all. On several ranks also the pieces; what names these the first rank writes.
+/// where `steps` is 0, themselves. On several ranks also the pieces; what names these the first rank writes.
 WrittenFiles files_written(const std::vector<std::string>& named, std::size_t steps, const Ranks& ranks);
 
 /// Throws UsageError if two of the files are the same, or if one is an input, by whatever link or spelling.

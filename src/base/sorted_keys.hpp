@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <gale/base/memory.hpp>
+#include <gale/base/parallel.hpp>
 #include <gale/base/transfer.hpp>
 
 namespace gale::detail {

@@ -108,6 +108,7 @@ class ArcSamples {
   void add(const io::PointArray& field, const MergeTree& tree, const ArcVertex& vertex) {
     const MergeArc& arc = tree.arcs[vertex.arc];
     const double low = value_at(field, tree.vertices[arc.lower]), high = value_at(field, tree.vertices[arc.upper]);
+    if (vertex.value < low || vertex.value > high) return;                 // as in meshes with holes
     const double height = (vertex.value - low) / (high - low) * samples_;  // NaN where nothing has a height
     const std::uint64_t part = pair_key(vertex.arc, height > 0 ? static_cast<Id>(std::min(height, samples_ - 1.0)) : 0);
     const auto [place, is_new] = places_.insert(part);

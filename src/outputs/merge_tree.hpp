@@ -52,7 +52,7 @@ GALE_EXPORT io::Surface tree_arcs(const io::Dataset& dataset, const io::PointArr
 
 /// What each vertex of the mesh belongs to, as point arrays in input order: SegmentationId (int32, its arc; -1 if it
 /// has none), RegionType (int8: 0 an arc that ends in a minimum, 1 in a maximum, 2 between 1-saddles, 3 between
-/// 2-saddles, 4 any other; -1), RegionSize (int32, the vertices between the arc's ends), RegionSpan (the distance of
+/// 2-saddles, 4 any other; -1), RegionSize (int32, the arc's vertices but for its ends), RegionSpan (the distance of
 /// its ends; float if the points are, else double).
 GALE_EXPORT std::vector<io::PointArray> tree_segmentation(const io::Dataset& dataset, const MergeTree& tree);
 

@@ -136,7 +136,7 @@ TEST(MergeTree, of_any_triangles_are_those_of_brute_force) {
   }
 }
 
-/// There join and split trees may leave nodes without an arc: they hang on others, which vertices in between belong to.
+/// Nodes that join and split trees leave without an arc hang on others there.
 TEST(MergeTree, of_level_sets_is_one_for_each_component_where_a_mesh_has_holes_too) {
   constexpr Id around = 8, across = 2;
   InputSurface ring;

@@ -90,9 +90,12 @@ def _text(name: str, value: Any) -> str:
 
 def _whole(name: str, value: Any) -> int:
     try:
-        return operator.index(value)
+        number = operator.index(value)
     except TypeError:
         raise TypeError(f"{name} is {value!r}, which is no whole number") from None
+    if not -2**31 <= number < 2**31:
+        raise Error(f"{name} is {number}, which 32 bits don't hold")
+    return number
 
 
 _POLYHEDRON = 42
@@ -245,7 +248,7 @@ class Mesh:
         polyhedron's entries are its faces: how many, then of each how many corners, and these (VTK's face stream). Cells
         of lower dimension are left out, with a UserWarning."""
         split = _gale.from_cells(_arrays.points(points), _arrays.ids(connectivity, "cells"), _arrays.offsets(offsets),
-                                 _arrays.types(types), capacity)
+                                 _arrays.types(types), _whole("capacity", capacity))
         for notice in split[2]:
             if not notice.startswith("split "):
                 warnings.warn(notice, stacklevel=2)
@@ -274,7 +277,8 @@ class Mesh:
         along = [count for count in dimensions if count > 1]
         if len(along) < 2:
             raise Error("a grid of {} x {} x {} points has no cells of dimension 2 or 3".format(*dimensions))
-        return cls._of(_gale.from_grid(_arrays.points(_points_of(grid)), *along, *[1] * (3 - len(along)), capacity))
+        return cls._of(_gale.from_grid(_arrays.points(_points_of(grid)), *along, *[1] * (3 - len(along)),
+                                        _whole("capacity", capacity)))
 
     @classmethod
     @_documented()
@@ -328,7 +332,7 @@ class Mesh:
     @property
     def cells(self) -> np.ndarray:
         """A copy of which of the cells that the mesh was made of each tetrahedron (or triangle) is, or is of: (tetrahedra,)
-        int32. Of an image, also where a part of it was read, and of grid:N these are its voxels (or pixels)."""
+        int32, or int64 where there are too many cells. Of an image, also where a part of it was read, and of grid:N these are its voxels (or pixels)."""
         if self._cells is not None:
             return np.array(self._cells)
         cubes = self._mesh.cubes()
@@ -386,8 +390,8 @@ class Mesh:
         return matrix
 
     def _relation(self, name: str, threads: int, progress: Progress) -> Tuple[np.ndarray, np.ndarray, int]:
-        with told(progress, name) as tell:
-            return self._mesh.relation(name, threads, tell)
+        with told(progress, _text("name", name)) as tell:
+            return self._mesh.relation(name, _whole("threads", threads), tell)
 
     @_documented()
     def critical_points(self, field: Any, name: str = "field", threads: int = 0,
@@ -495,7 +499,7 @@ def read_steps(inputs: Union[Path, Sequence[Path]], above: Optional[float] = Non
     ...     print(time, len(mesh.critical_points(arrays["pressure"])))"""
     paths = [inputs] if isinstance(inputs, (str, os.PathLike)) else list(inputs)
     before = None
-    for time, place, at in _gale.steps_of([_place(path) for path in paths], outside_files):
+    for time, place, at in _gale.steps_of([_place(path) for path in paths], _flag("outside_files", outside_files)):
         before, arrays, cell_ids = _read(os.fsdecode(place), above, array, cells, outside_files, capacity, before, at)
         yield time, Mesh._of(before, cell_ids), arrays
 
@@ -517,11 +521,13 @@ def track(steps: Iterable[Tuple[float, Mesh, Any]], persistence: Optional[Persis
         if not isinstance(step, (tuple, list)) or len(step) != 3 or not isinstance(step[1], Mesh):
             raise TypeError(f"step {number}, of {type(step).__name__}, is not (time, Mesh, field)")
         time, mesh, field = step
-        if not float(time) >= before:
+        if not isinstance(time, (numbers.Real, np.ndarray)):
+            raise TypeError(f"the time of step {number} is {time!r}, which is no number")
+        if float(time) < before:
             raise Error(f"the time of step {number}, {time}, is before that of the last one, {before}")
         before = float(time)
         with told(progress, f"step at {time}") as tell:
-            tracker.add(before, mesh._mesh, _arrays.field(field), name, threshold, threads, tell)
+            tracker.add(before, mesh._mesh, _arrays.field(field), _text("name", name), threshold, _whole("threads", threads), tell)
     lines, table = tracker.found()
     return Tracks(Lines(*lines), table)
 
@@ -539,7 +545,7 @@ def _read(path: Path, above: Optional[float], array: str, cells: str, outside_fi
     """A file's mesh, its point arrays and its cells' global ids."""
     if not isinstance(cells, str) or cells not in ("any", "simplices", "tetrahedra"):
         raise Error(f"cells are {cells!r}, neither 'any' nor 'simplices'")
-    if above is not None and not isinstance(above, numbers.Real):
+    if isinstance(above, (str, bytes)) or (above is not None and not hasattr(above, "__float__")):
         raise TypeError(f"above is {above!r}, which is no number")
     inner, arrays, cell_arrays, notices = _gale.read(
         _place(path), None if above is None else float(above), _text("array", array), cells != "any",

@@ -2,7 +2,7 @@
 its entry point; with earlier ones, gale.Mesh.from_pyvista does the same."""
 from __future__ import annotations
 
-from typing import Any, Optional, Tuple
+from typing import Any, List, Optional, Tuple
 
 import numpy as np
 import pyvista
@@ -23,22 +23,26 @@ class GaleAccessor:
         self._grid = grid
         self._mesh: Optional[Mesh] = None
         self._made_from: Tuple[Any, ...] = ()
-        self._made_at = 0
+        self._made_of: List[Tuple[Any, int]] = []
 
     @property
     def mesh(self) -> Mesh:
         """The grid as a gale.Mesh."""
         if self._mesh is None or self._points_changed():
             self._mesh = Mesh.from_pyvista(self._grid)
-            self._made_from, self._made_at = self._shape(), self._grid.GetMTime()
+            self._made_from, self._made_of = self._shape(), self._parts()
         return self._mesh
 
     def _points_changed(self) -> bool:
+        return self._shape() != self._made_from or self._parts() != self._made_of
+
+    def _parts(self) -> List[Tuple[Any, int]]:
+        """What the mesh is made of, and when it was modified."""
         parts = [self._grid.GetPoints()] if self._grid.IsA("vtkPointSet") else []
         parts += [self._grid.GetCells()] if self._grid.IsA("vtkUnstructuredGrid") else []
         if self._grid.IsA("vtkRectilinearGrid"):
             parts += [self._grid.GetXCoordinates(), self._grid.GetYCoordinates(), self._grid.GetZCoordinates()]
-        return self._shape() != self._made_from or any(part.GetMTime() > self._made_at for part in parts)
+        return [(part, part.GetMTime()) for part in parts]
 
     def _shape(self) -> Tuple[Any, ...]:
         grid = self._grid

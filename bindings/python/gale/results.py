@@ -98,9 +98,15 @@ class _Table(_Result):
 
 
 def _beside(columns: Dict[str, np.ndarray], arrays: Dict[str, np.ndarray]) -> Dict[str, np.ndarray]:
-    """Columns, and arrays whose names get an underscore where a column has it."""
+    """Columns, and arrays, whose names get underscores where a column has them."""
     taken = {part for name in columns for part in [name, *name.split(", ")]}
-    return {**columns, **{name + "_" * (name in taken): values for name, values in arrays.items()}}
+    all_columns = dict(columns)
+    for name, values in arrays.items():
+        own = name
+        while own in taken or (own != name and own in arrays):
+            own += "_"
+        all_columns[own] = values
+    return all_columns
 
 
 def _frame(columns: Dict[str, np.ndarray]) -> Any:

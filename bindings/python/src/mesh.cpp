@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 #include <future>
+#include <limits>
 
 #include <gale/base/error.hpp>
 #include <gale/base/parallel.hpp>
@@ -247,15 +248,20 @@ nb::object PyMesh::points() const {
 nb::object PyMesh::cubes() const {
   const Grid* const grid = mesh().grid();
   if (grid == nullptr) return nb::none();
-  return numpy_of(Job().run([&] {
-    const GridView view = grid->in<HostMemory>();
-    std::vector<Id> cubes(grid->cells());
-    parallel_for("GALE::cubes_of_cells", HostExecutionSpace(), grid->cells(), [&](Offset t) {
-      const auto at = view.place_of_cube(static_cast<Id>(t) / view.cells_per_cube());
-      cubes[t] = at.x + (view.nx - 1) * (at.y + (view.dimension == 3 ? (view.ny - 1) * at.z : 0));
-    });
-    return cubes;
-  }));
+  const GridView view = grid->in<HostMemory>();
+  const Offset along_x = view.nx - 1, layer = view.dimension == 3 ? along_x * (view.ny - 1) : 0;
+  const auto cubes_as = [&](auto number) {
+    return numpy_of(Job().run([&] {
+      std::vector<decltype(number)> cubes(grid->cells());
+      parallel_for("GALE::cubes_of_cells", HostExecutionSpace(), grid->cells(), [&](Offset t) {
+        const auto at = view.place_of_cube(static_cast<Id>(t) / view.cells_per_cube());
+        cubes[t] = static_cast<decltype(number)>(at.x + along_x * at.y + layer * at.z);
+      });
+      return cubes;
+    }));
+  };
+  const bool is_small = layer <= std::numeric_limits<Id>::max() / view.nz;
+  return is_small ? cubes_as(Id()) : cubes_as(std::int64_t());
 }
 
 io::Dataset PyMesh::with(io::PointArray field) const {

@@ -158,9 +158,19 @@ class Pyvista(unittest.TestCase):
             self.assertEqual(gale.Mesh.from_pyvista(surface).cells.tolist(), [2, 3])
 
     def test_what_has_no_points(self):
-        for grid in (self.pyvista.PolyData(), self.pyvista.UnstructuredGrid(), self.pyvista.StructuredGrid()):
-            with self.assertRaises(gale.Error):
+        from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData, vtkStructuredGrid, vtkUnstructuredGrid
+
+        unstructured, structured, surface, polygons = vtkUnstructuredGrid(), vtkStructuredGrid(), vtkPolyData(), vtkCellArray()
+        unstructured.Allocate(1)
+        unstructured.InsertNextCell(10, 4, [0, 1, 2, 3])
+        structured.SetDimensions(3, 3, 3)
+        polygons.InsertNextCell(3, [0, 1, 2])
+        surface.SetPolys(polygons)
+        for grid in (unstructured, structured, surface):
+            with self.assertRaisesRegex(gale.Error, "the grid has no points"):
                 gale.Mesh.from_pyvista(grid)
+        with self.assertRaisesRegex(gale.Error, "the surface has no polygons"):
+            gale.Mesh.from_pyvista(vtkPolyData())
 
     def test_coordinates_that_were_replaced(self):
         grid = self.pyvista.RectilinearGrid(*[np.arange(4.0)] * 3)

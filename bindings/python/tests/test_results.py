@@ -59,6 +59,19 @@ class Results(unittest.TestCase):
         points, cells, field = random_mesh(1)
         found = gale.Mesh(points, cells).critical_points(field, name="x")
         self.assertEqual(list(found._columns()), ["x, y, z", "x_", "CriticalType", "IsOnBoundary", "ttkVertexScalarField"])
+        found.arrays["x_"] = found["CriticalType"]
+        self.assertEqual(list(found._columns())[1:3], ["x__", "CriticalType"])
+        self.assertIn("x_", found._columns())
+
+    def test_infinite_values_are_not_drawn(self):
+        try:
+            import matplotlib
+        except ImportError:
+            self.skipTest("there is no matplotlib")
+        matplotlib.use("Agg")
+        values = np.array(self.field, float)
+        values[3] = np.inf
+        self.mesh.simplify_field(values).plot()
 
     def test_names_lead_to_what_is_there(self):
         for one in self.all:

@@ -3,6 +3,7 @@ import inspect
 import os
 import pathlib
 import tempfile
+import types
 import unittest
 
 import gale
@@ -142,6 +143,17 @@ class WrongArguments(unittest.TestCase):
             gale.track([(0, POINTS, FIELD)])
         with self.assertRaisesRegex(gale.Error, "the time of step 1, 0, is before that of the last one, 1.0"):
             gale.track([(1, mesh, FIELD), (0, mesh, FIELD)])
+        for wrong in (lambda: mesh.relation("VT", threads=2.0), lambda: gale.track([(0, mesh, FIELD)], threads=2.0),
+                      lambda: gale.Mesh.from_cells(POINTS, TETRAHEDRA[:2].ravel(), [0, 4, 8], [10, 10], capacity=2.0)):
+            with self.assertRaisesRegex(TypeError, "is 2.0, which is no whole number"):
+                wrong()
+        with self.assertRaisesRegex(gale.Error, "threads is 1099511627776, which 32 bits don't hold"):
+            mesh.critical_points(FIELD, threads=2**40)
+        with self.assertRaisesRegex(gale.Error, "finite"):
+            gale.track([(np.nan, mesh, FIELD)])
+        meshios = types.SimpleNamespace(points=POINTS, cells=[types.SimpleNamespace(type="tetra", data=TETRAHEDRA + 0.7)])
+        with self.assertRaisesRegex(gale.Error, "cells of meshio's type 'tetra' of float64 are not integers"):
+            gale.Mesh.from_meshio(meshios)
         with self.assertRaisesRegex(gale.Error, "offsets have 18446744073709551615, which is too large"):
             gale.Mesh.from_cells(POINTS, TETRAHEDRA[:2].ravel(), np.array([0, 4, 2**64 - 1], np.uint64), [10, 10])
 

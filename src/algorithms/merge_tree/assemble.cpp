@@ -3,6 +3,7 @@
 #include <utility>
 
 #include <gale/algorithms/merge_tree/assemble.hpp>
+#include <gale/base/error.hpp>
 #include <gale/base/sort.hpp>
 #include <gale/base/stop.hpp>
 
@@ -68,6 +69,7 @@ ContourArcs contour_arcs(const std::array<std::vector<Id>, 2>& parents) {
     is_gone[leaf] = true;
     lose_child(side, at);
   }
+  if (!left_over.empty()) require_ids("arcs of a contour tree, counted twice", 2 * Offset(arcs.ends.size()));
   for (Way& way : left_over) {
     way.arc += static_cast<Id>(arcs.ends.size());
     take(way);

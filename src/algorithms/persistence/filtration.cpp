@@ -2,7 +2,6 @@
 
 #include <gale/algorithms/order/require.hpp>
 #include <gale/algorithms/persistence/pairs.hpp>
-#include <gale/base/error.hpp>
 #include <gale/base/sort.hpp>
 
 namespace gale::detail {

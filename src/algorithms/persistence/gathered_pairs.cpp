@@ -50,7 +50,7 @@ class PairsOnRanks {
       ExtremumEnds ends;
       ends.of_edges = ends_in(ends_of_edges_, all_[1], all_[0]);
       ends.of_facets = ends_in(ends_of_facets_, all_[mesh_.dimension() - 1], all_[mesh_.dimension()]);
-      pairs.emplace(filtration_, ends, mesh_.dimension(), threads_);
+      pairs.emplace(filtration_, ends, mesh_.dimension());
     });
     std::vector<Id> uppers;
     if (mesh_.dimension() == 3) {

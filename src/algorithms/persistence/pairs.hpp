@@ -66,7 +66,7 @@ class PairsOfExtrema {
  public:
   /// Pairs the saddles of a mesh of that dimension, whose paths have these ends. `forked_maxima` finds for each maximum
   /// the saddle that it is paired with, where paths fork; empty where they don't.
-  PairsOfExtrema(const Filtration& filtration, const ExtremumEnds& ends, int dimension, int threads,
+  PairsOfExtrema(const Filtration& filtration, const ExtremumEnds& ends, int dimension,
                  const std::function<std::vector<Id>()>& forked_maxima = {});
 
   /// The 2-saddles that no maximum is paired with, in the order of the filtration; none on a triangle mesh.

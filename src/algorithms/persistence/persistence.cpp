@@ -60,7 +60,7 @@ bool has_forks(const DiscreteGradient& gradient) {
   return !gradient.store().further_successors.empty();
 }
 
-PairsOfExtrema::PairsOfExtrema(const Filtration& filtration, const ExtremumEnds& ends, int dimension, int threads,
+PairsOfExtrema::PairsOfExtrema(const Filtration& filtration, const ExtremumEnds& ends, int dimension,
                                const std::function<std::vector<Id>()>& forked_maxima)
     : dimension_(dimension) {
   for (int d = 0; d < 4; ++d) is_paired_[d].assign(filtration.rank[d].size(), 0);
@@ -119,7 +119,7 @@ PersistencePairs pairs_of(const DiscreteGradient& gradient, const CriticalPlaces
   const Filtration filtration = filtration_of(gradient, threads);
   std::function<std::vector<Id>()> forked_maxima;
   if (forks) forked_maxima = [&] { return pair_forked_maxima(gradient, places, filtration); };
-  PairsOfExtrema pairs(filtration, ends, gradient.mesh().dimension(), threads, forked_maxima);
+  PairsOfExtrema pairs(filtration, ends, gradient.mesh().dimension(), forked_maxima);
   std::vector<Id> upper_of_lower(gradient.critical().edges.size(), no_id);
   if (wanted == WantedPairs::all) {
     const SaddleColumns columns(gradient, places, filtration, pairs.columns(), threads);
