@@ -7,6 +7,7 @@
 #include <gale/base/parallel.hpp>
 #include <gale/mesh/exchange/global_index.hpp>
 #include <gale/mesh/exchange/messages.hpp>
+#include <gale/mesh/mesh.hpp>
 
 namespace gale::detail {
 
