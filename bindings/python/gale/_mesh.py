@@ -332,7 +332,8 @@ class Mesh:
     @property
     def cells(self) -> np.ndarray:
         """A copy of which of the cells that the mesh was made of each tetrahedron (or triangle) is, or is of: (tetrahedra,)
-        int32, or int64 where there are too many cells. Of an image, also where a part of it was read, and of grid:N these are its voxels (or pixels)."""
+        int32, or int64 where there are too many cells. Of an image, also where a part of it was read, and of grid:N these
+        are its voxels (or pixels)."""
         if self._cells is not None:
             return np.array(self._cells)
         cubes = self._mesh.cubes()
@@ -527,7 +528,8 @@ def track(steps: Iterable[Tuple[float, Mesh, Any]], persistence: Optional[Persis
             raise Error(f"the time of step {number}, {time}, is before that of the last one, {before}")
         before = float(time)
         with told(progress, f"step at {time}") as tell:
-            tracker.add(before, mesh._mesh, _arrays.field(field), _text("name", name), threshold, _whole("threads", threads), tell)
+            tracker.add(before, mesh._mesh, _arrays.field(field), _text("name", name), threshold,
+                        _whole("threads", threads), tell)
     lines, table = tracker.found()
     return Tracks(Lines(*lines), table)
 
