@@ -38,10 +38,10 @@ struct SimplifyOptions {
 /// `complex` but its gradient, manifolds and parts is read there.
 ///
 /// The Euler characteristic stays as it is. `complex` isn't simplified, and has saddle connectors, unless
-/// `extrema_only` or on a triangle mesh: throws gale::Error otherwise. Parts that it was computed without aren't in the
-/// result. `value(v)` is the field at an input vertex: throws gale::Error, naming the vertex, if that is NaN where it
-/// is asked for. On options.threads threads, but for the cancelling itself. Memory grows with what is left, and with
-/// the gradient (4 bytes a vertex and a tetrahedron).
+/// `extrema_only` or on a triangle mesh: throws gale::Error otherwise, and for a threshold that isn't 0 or more. Parts
+/// that it was computed without aren't in the result. `value(v)` is the field at an input vertex: throws gale::Error,
+/// naming the vertex, if that is NaN where it is asked for. On options.threads threads, but for the cancelling itself.
+/// Memory grows with what is left, and with the gradient (4 bytes a vertex and a tetrahedron).
 GALE_EXPORT MorseSmaleComplex simplify(const MorseSmaleComplex& complex, const std::function<double(Id)>& value,
                                        double threshold, const SimplifyOptions& options = {});
 

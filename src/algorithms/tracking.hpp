@@ -59,13 +59,14 @@ class GALE_EXPORT ExtremumTracker {
  public:
   ExtremumTracker();
   ~ExtremumTracker();
-  ExtremumTracker(ExtremumTracker&&) noexcept;             ///< moves
+  ExtremumTracker(ExtremumTracker&&) noexcept;             ///< moves; the other may be assigned to
   ExtremumTracker& operator=(ExtremumTracker&&) noexcept;  ///< moves
 
   /// Adds the next step. `value(v)` is the field at an input vertex, and is called until the step after has been added,
   /// by several threads.
   /// `threshold`, at least 0, is a difference of values. Throws gale::Error if the step's mesh is another than the
-  /// steps' before, or one rank's part of several, and if a value is NaN; then nothing was added.
+  /// steps' before, or one rank's part of several, if its time isn't after theirs, and if a value is NaN; then nothing
+  /// was added.
   void add(double time, const DiscreteGradient& gradient, std::function<double(Id)> value, double threshold = 0,
            int threads = host_threads());
 

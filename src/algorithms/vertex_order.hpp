@@ -56,7 +56,7 @@ class GALE_EXPORT VertexOrder {
   VertexOrder(const Mesh& mesh, const View& values) : mesh_(mesh), all_(keys_of_view(mesh, values)) {}
 
   /// From the place of each vertex that this rank holds among those of all ranks, by input id: that is in no need of
-  /// messages.
+  /// messages. Throws gale::Error if there aren't as many places as vertices.
   static VertexOrder of_places(const Mesh& mesh, const std::vector<Id>& places) {
     return VertexOrder(mesh,
                        detail::keys_of_places(mesh, detail::FieldValues<Id, HostMemory>(places.data(), places.size())));

@@ -201,7 +201,7 @@ InputOptions::Steps InputOptions::steps() const {
 }
 
 void CommonOptions::add_to(CLI::App& command) {
-  command.add_option("-t,--threads", threads, "Threads (default: all cores)")->check(CLI::Range(1, 1024));
+  command.add_option("-t,--threads", threads, "Threads (default: all cores)")->check(CLI::Range(1, most_threads));
   command.add_option("--report", report, "Write times, memory and results to this JSON file")->type_name("FILE");
   command.add_flag("--quiet", quiet, "Print nothing but errors");
 }

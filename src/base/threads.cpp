@@ -101,13 +101,18 @@ int host_threads() {
   return std::min(chosen > 0 ? chosen : default_threads(), limit_here);
 }
 
+void detail::require_threads(int count) {
+  if (count < 1 || count > most_threads)
+    throw Error("threads is " + std::to_string(count) + ", not 1 to " + std::to_string(most_threads));
+}
+
 int detail::team_for(int count) {
   team_here = std::max(team_here, count);
   return std::max(count, std::min(team_here, host_threads()));
 }
 
 void set_host_threads(int count) {
-  count = std::max(count, 1);
+  count = std::clamp(count, 1, most_threads);
   chosen_threads = count;
 #ifndef GALE_ENABLE_STD_THREADS
   omp_set_num_threads(count);  // for other users of OpenMP on this thread, such as Kokkos

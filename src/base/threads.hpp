@@ -30,8 +30,11 @@ namespace gale {
 /// than a container's CPU quota, rounded up. No more than this thread's ThreadLimits in any case.
 GALE_EXPORT int host_threads();
 
-/// From now on so many, at least 1, whichever thread begins a loop. For the application, before it begins: the library
-/// never calls it.
+/// The most threads that can be asked for: GCC's OpenMP ends the process where the system starts no more.
+inline constexpr int most_threads = 1024;
+
+/// From now on so many, 1 to most_threads (the nearest of these), whichever thread begins a loop. For the application,
+/// before it begins: the library never calls it.
 GALE_EXPORT void set_host_threads(int count);
 
 /// While it lives, loops that this thread begins use at most so many threads, at least 1; of several that live, the
@@ -49,6 +52,9 @@ class GALE_EXPORT ThreadLimit {
 };
 
 namespace detail {
+
+/// Throws gale::Error for a number of threads that nobody can have.
+GALE_EXPORT void require_threads(int count);
 
 /// How many threads OpenMP is asked for, to run so many bodies: as many as this thread has asked for before, within
 /// host_threads(). GCC's ends the threads that a smaller team lacks, and starts others for the next large one, which

@@ -18,8 +18,10 @@ namespace {
 constexpr int tag = 1;
 
 MPI_Comm duplicate(MPI_Comm comm) {
-  int initialized = 0;
+  int initialized = 0, finalized = 0;
   MPI_Initialized(&initialized);
+  MPI_Finalized(&finalized);
+  if (finalized) throw Error("MPI is finalized: gale::distributed comes before MPI_Finalize");
   if (!initialized) throw Error("MPI is not initialized: call MPI_Init_thread before using gale::distributed");
   MPI_Comm own;
   MPI_Comm_dup(comm, &own);

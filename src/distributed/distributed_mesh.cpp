@@ -70,20 +70,30 @@ void validate(const MeshPart<Index>& part) {
   require_global_ids(part.cell_ids);
 }
 
-/// How many vertices the cells of all ranks have. Collective; throws SharedError where they differ, and for no cells.
+/// How many vertices the cells of all ranks have. Collective; throws SharedError where they differ, for cells that have
+/// ids of their own on some ranks alone, and for no cells.
 template <class Index>
 int corners_of_all(const Communicator& ranks, const MeshPart<Index>& part) {
-  const auto first_with = [&](std::size_t corners) {
-    const bool has_these = part.cells.extent(0) > 0 && part.cells.extent(1) == corners;
-    return ranks.least(std::int64_t(has_these ? ranks.rank() : ranks.size()));
+  const bool has_cells = part.cells.extent(0) > 0, has_ids = part.cell_ids.extent(0) > 0;
+  const auto corners = ranks.all(has_cells ? static_cast<std::int64_t>(part.cells.extent(1)) : 0);
+  const auto ids = ranks.all(has_cells ? std::int64_t(has_ids) : -1);
+  const auto first_with = [](const std::vector<std::int64_t>& all, std::int64_t one) -> std::optional<std::int64_t> {
+    const auto at = std::find(all.begin(), all.end(), one);
+    if (at == all.end()) return std::nullopt;
+    return at - all.begin();
   };
-  const std::int64_t none = ranks.size(), triangles = first_with(3), tetrahedra = first_with(4);
-  if (std::min(triangles, tetrahedra) == none) throw SharedError("the mesh has no cells");
-  if (std::max(triangles, tetrahedra) < none) {
-    throw SharedError("cells are of one dimension on all ranks: rank " + std::to_string(triangles) +
-                      " has triangles, rank " + std::to_string(tetrahedra) + " tetrahedra");
+  const auto triangles = first_with(corners, 3), tetrahedra = first_with(corners, 4);
+  if (!triangles && !tetrahedra) throw SharedError("the mesh has no cells");
+  if (triangles && tetrahedra) {
+    throw SharedError("cells are of one dimension on all ranks: rank " + std::to_string(*triangles) +
+                      " has triangles, rank " + std::to_string(*tetrahedra) + " tetrahedra");
   }
-  return triangles < none ? 3 : 4;
+  const auto given = first_with(ids, 1), counted = first_with(ids, 0);
+  if (given && counted) {
+    throw SharedError("cells have ids on all ranks or on none: rank " + std::to_string(*given) +
+                      " has ids of cells, rank " + std::to_string(*counted) + " has none");
+  }
+  return triangles ? 3 : 4;
 }
 
 /// Who hands over and owns which vertex. `ids`: the interval of those that this rank hands over, if they are one.
@@ -259,6 +269,7 @@ Mesh DistributedMesh::Sharing::deal(MeshPart<Index> part, const PartitionOptions
     ids = valid_interval(part.vertex_ids);
   });
   const int corners_of_each = corners_of_all(ranks_, part);
+  const Offset most_local = ranks_.least(std::int64_t(options.most_local));
   if (part.cells.extent(0) == 0) part.cells = CellRows<Index>(nullptr, 0, corners_of_each);
   std::optional<detail::VertexDirectory> directory = directory_of(ranks_, part, ids, options.repartition);
   detail::OwnedVertices all_owned = directory->owned();
@@ -270,10 +281,10 @@ Mesh DistributedMesh::Sharing::deal(MeshPart<Index> part, const PartitionOptions
     read = detail::read_cells(part, owned.interval);
   });
   octree.begin(options.capacity);
-  const detail::LocalCells<Index> held_cells(ranks_, part, *directory, owned.interval, read.outer, options.most_local);
+  const detail::LocalCells<Index> held_cells(ranks_, part, *directory, owned.interval, read.outer, most_local);
   read.outer = {};
   detail::together(ranks_, [&] { held_ = detail::LocalVertices(owned, held_cells.vertices_beside(owned)); });
-  detail::require_local(ranks_, "vertices", held_.count(), options.most_local);
+  detail::require_local(ranks_, "vertices", held_.count(), most_local);
   vertices_ = directory->vertices();
   cells_ = ranks_.sum(part.cells.extent(0));
   given_ = directory->given();
@@ -331,7 +342,7 @@ Mesh DistributedMesh::Sharing::make(const MeshPart<Index>& part, const Partition
 
 Mesh DistributedMesh::Sharing::make(const GridLayers& part, const PartitionOptions& options,
                                     const std::shared_ptr<const Exchange>& self) {
-  const detail::LocalGrid local = detail::local_grid(ranks_, part, options.most_local);
+  const detail::LocalGrid local = detail::local_grid(ranks_, part, ranks_.least(std::int64_t(options.most_local)));
   vertices_ = local.all_vertices;
   cells_ = local.all_cells;
   given_vertices_ = local.owned.size();

@@ -91,7 +91,7 @@ struct MeshPart {
   /// The global ids of each one's vertices, which any ranks hand over: triangles or tetrahedra, on all ranks alike.
   CellRows<Index> cells;
 
-  /// 0 to 2^62 - 1, all different, which the mesh keeps; none: they are counted from rank to rank.
+  /// 0 to 2^62 - 1, all different, which the mesh keeps; none on all ranks: they are counted from rank to rank.
   Array<const GlobalId, HostMemory> cell_ids;
 };
 

@@ -35,6 +35,8 @@ std::size_t point_count(const PointArray& array) {
 }
 
 PointArray extract_component(const PointArray& array, int component) {
+  if (component < 0 || component >= array.components)
+    refuse("the array '", array.name, "' has ", array.components, " components, no ", component);
   const std::size_t rows = point_count(array), width = array.components;
   const auto pick = [&](const auto& from) -> PointArray::Values {
     std::decay_t<decltype(from)> to(rows);

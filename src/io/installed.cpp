@@ -1,6 +1,7 @@
 #include <dlfcn.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 
@@ -26,14 +27,18 @@ fs::path own_folder() {
 
 std::string find_installed(const std::string& name, int access, const char* use, const char* origin) {
   const fs::path own = own_folder();
-  // Looks beside it, where the Python module has it, and where GALE was installed.
-  for (const fs::path& folder : {own, own / "bin", own / GALE_LIBEXEC_FROM_BIN, fs::path(GALE_LIBEXEC)}) {
+  const char* const said = std::getenv("GALE_LIBEXEC");
+  // Looks where the user says, beside it, where the Python module has it, and where GALE was to be installed.
+  for (const fs::path& folder :
+       {fs::path(said == nullptr ? "" : said), own, own / "bin", own / GALE_LIBEXEC_FROM_BIN, fs::path(GALE_LIBEXEC)}) {
+    if (folder.empty()) continue;
     const fs::path file = folder / name;
     if (::access(file.c_str(), access) == 0) return file.string();
   }
   std::error_code none;  // a wheel's users don't have the folder that it was to be installed to
   const std::string elsewhere = fs::exists(GALE_LIBEXEC, none) ? " nor in " GALE_LIBEXEC : "";
-  refuse(use, " by ", name, ", which isn't beside ", own.string(), elsewhere, ": it is built ", origin);
+  refuse(use, " by ", name, ", which isn't beside ", own.string(), elsewhere,
+         " nor in the folder that the variable GALE_LIBEXEC names: it is built ", origin);
 }
 
 }  // namespace gale::io::detail

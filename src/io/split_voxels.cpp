@@ -175,6 +175,11 @@ Dataset split_voxels(Image image, std::optional<double> above, GridCells cells) 
     refuse("the image has ", nx, " x ", ny, " x ", nz, " voxels: it needs at least 2 in two directions");
   const VoxelRows rows{image.dimensions[axes[0]], image.dimensions[axes[1]],
                        axes.size() == 3 ? image.dimensions[axes[2]] : 1};
+  const std::size_t voxels = rows.begin(rows.count());
+  for (const PointArray& array : image.arrays) {
+    if (point_count(array) != voxels)
+      refuse("the array '", array.name, "' has ", point_count(array), " rows for ", voxels, " voxels");
+  }
   const double farthest = reach_of(image);
   Dataset dataset;
   dataset.grid = grid_of(rows, image.arrays.front(), above);

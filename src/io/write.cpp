@@ -44,6 +44,18 @@ void check_cells(std::size_t points, const Surface::Cells& cells) {
   if (wrong != end) refuse("there is no point ", cells.points[wrong], " among ", points);
 }
 
+/// Throws Error for a cell of a mesh that has a corner which is none of its points.
+void check_corners(const Dataset& mesh) {
+  if (mesh.grid) return;
+  const bool is_flat = mesh.dimension() == 2;
+  const Id* const corners = is_flat ? mesh.triangles.data() : mesh.tetrahedra.data();
+  const auto end = static_cast<Offset>(mesh.cells() * (is_flat ? 3 : 4));
+  const std::size_t points = points_of(mesh.points);
+  const Offset wrong = reduce_min("GALE::check_corners", HostExecutionSpace(), end, end,
+                                  [&](Offset k) { return static_cast<std::size_t>(corners[k]) < points ? end : k; });
+  if (wrong != end) refuse("there is no point ", corners[wrong], " among ", points);
+}
+
 /// Throws Error unless the file's extension is one that is written with any of these bits. `what` it is.
 void require_format(const std::string& path, unsigned bits, const char* what) {
   const Format* const format = format_of(path);
@@ -124,6 +136,7 @@ void write_mesh(const Target& to, const Dataset& mesh, const std::vector<PointAr
     check_arrays(points_of(mesh.points), mesh.arrays);
     check_arrays(points_of(mesh.points), more);
     check_arrays(mesh.cells(), mesh.cell_arrays, cells_of(mesh));
+    check_corners(mesh);
     const Format& format = *format_of(file.path());
     if (const auto* const write = std::get_if<detail::MeshWriter*>(&format.writer)) return (*write)(file, mesh, more);
     write_content(file, format.takes(written_meshes) ? detail::content_of(mesh, more, mesh.cell_arrays)
@@ -135,6 +148,7 @@ void write_piece(const Target& to, const Dataset& piece) {
   write_as(to, written_pieces, "a piece of a mesh", [&](const AtomicFile& file) {
     check_arrays(points_of(piece.points), piece.arrays);
     check_arrays(piece.cells(), piece.cell_arrays, cells_of(piece));
+    check_corners(piece);
     write_content(file, detail::content_of(piece, {}, piece.cell_arrays));
   });
 }

@@ -70,6 +70,31 @@ struct CopyEntry {
   KOKKOS_FUNCTION void operator()(Offset i) const { to(i) = static_cast<typename To::non_const_value_type>(from(i)); }
 };
 
+/// The place of an entry that T doesn't hold; of another one the greatest.
+template <class T, class View>
+struct PlaceOfOther {
+  View entries;
+
+  KOKKOS_FUNCTION Offset operator()(Offset i) const {
+    using Entry = typename View::non_const_value_type;
+    const Entry entry = entries(i);
+    return static_cast<Entry>(static_cast<T>(entry)) == entry ? static_cast<Offset>(entries.extent(0)) : i;
+  }
+};
+
+/// Throws gale::Error for one of the types of cells that is none of VTK's.
+template <class View>
+void require_types(const View& types) {
+  using Space =
+      std::conditional_t<is_device_memory<typename View::memory_space>, WorkerSpace, Kokkos::DefaultHostExecutionSpace>;
+  const Offset count = types.extent(0);
+  const Offset cell = reduce_min("GALE::require_types", Space(), count, count, PlaceOfOther<std::uint8_t, View>{types});
+  if (cell == count) return;
+  typename View::non_const_value_type type;
+  Kokkos::deep_copy(type, Kokkos::subview(types, cell));
+  throw Error("cell " + std::to_string(cell) + " has the type " + std::to_string(type) + ", which is none of VTK's");
+}
+
 /// A caller's View of rank 1 as entries of T that follow each other in `Memory`: the same memory if they do already,
 /// else a copy.
 template <class T, class Memory, class View>
@@ -125,6 +150,7 @@ auto cells_of(const ConnectivityView& connectivity, const OffsetView& offsets, c
   using Memory =
       std::conditional_t<is_device_memory<typename ConnectivityView::memory_space>, WorkerMemory, HostMemory>;
   using Index = detail::IndexFor<typename ConnectivityView::non_const_value_type>;
+  detail::require_types(types);
   return Cells<Index, Memory>{detail::entries_of<std::uint8_t, Memory>(types),
                               detail::entries_of<Offset, Memory>(offsets),
                               detail::entries_of<Index, Memory>(connectivity)};

@@ -365,7 +365,9 @@ const Array<const Id, Memory>& Mesh::interval_begin(int dimension) const {
   const int most = this->dimension();
   if (dimension == 0) return data_->divided().vertex_begin.in<Memory>();
   if (dimension == most) return data_->divided().internal_begin.in<Memory>();
-  if (dimension > most) throw Error("a mesh of triangles has no simplices of dimension " + std::to_string(dimension));
+  if (dimension > most)
+    throw Error(std::string("a mesh of ") + (most == 2 ? "triangles" : "tetrahedra") +
+                " has no simplices of dimension " + std::to_string(dimension));
   return data_->simplices.interval_begin<Memory>(dimension);
 }
 

@@ -1,5 +1,6 @@
 #include <cstring>
 
+#include <gale/base/stop.hpp>
 #include <gale/mesh/ranks.hpp>
 
 namespace gale {
@@ -39,10 +40,11 @@ const Ranks& Ranks::alone() {
 
 namespace detail {
 
-void fail_together(const Ranks& ranks, bool failed, const std::string& failure) {
-  const std::int64_t first = ranks.least(std::int64_t(failed ? ranks.rank() : ranks.size()));
+void fail_together(const Ranks& ranks, const Outcome& outcome) {
+  const std::int64_t first = ranks.least(std::int64_t(outcome.has_failed ? ranks.rank() : ranks.size()));
   if (first == ranks.size()) return;
-  const std::string message = ranks.broadcast(failure, static_cast<int>(first));
+  const std::string message = ranks.broadcast(outcome.failure, static_cast<int>(first));
+  if (outcome.was_stopped) throw Stopped();
   throw SharedError(ranks.size() == 1 ? message : "rank " + std::to_string(first) + ": " + message);
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <gale/base/error.hpp>
+#include <gale/base/stop.hpp>
 #include <gale/export.hpp>
 
 namespace gale {
@@ -104,14 +105,16 @@ std::vector<std::array<std::int64_t, count>> all_numbers(const Ranks& ranks,
   return all;
 }
 
-/// Throws SharedError if one rank has `failed`: what the lowest such rank says, with its name.
-GALE_EXPORT void fail_together(const Ranks& ranks, bool failed, const std::string& failure);
-
 /// What became of an action on this rank.
 struct Outcome {
   bool has_failed = false;
-  std::string failure;  ///< what the exception says that it threw
+  std::string failure;       ///< what the exception says that it threw
+  bool was_stopped = false;  ///< as it was asked to be: it threw Stopped
 };
+
+/// Throws SharedError if one rank has failed: what the lowest such rank says, with its name. A rank that was stopped
+/// itself throws Stopped.
+GALE_EXPORT void fail_together(const Ranks& ranks, const Outcome& outcome);
 
 /// Runs an action, which may throw.
 template <class Action>
@@ -121,18 +124,20 @@ Outcome tried(const Action& action) {
     return {};
   } catch (const std::exception& error) {
     return {true, error.what()};
+  } catch (const Stopped&) {
+    return {true, "the computation was asked to stop", true};
   } catch (...) {
     return {true, "unknown exception"};
   }
 }
 
 /// Runs an action on each rank that sends nothing to others. If it throws on some, all ranks throw the same SharedError
-/// when all have ended: nobody waits for a rank that has given up. A process alone just runs it.
+/// when all have ended, but Stopped where it was that: nobody waits for a rank that has given up. A process alone just
+/// runs it.
 template <class Action>
 void together(const Ranks& ranks, const Action& action) {
   if (ranks.is_alone()) return action();
-  const Outcome outcome = tried(action);
-  fail_together(ranks, outcome.has_failed, outcome.failure);
+  fail_together(ranks, tried(action));
 }
 
 }  // namespace detail

@@ -239,8 +239,10 @@ Analysis merge_trees() {
     const AtExcerpt at(tree.excerpt ? *tree.excerpt : mesh, mesh, input.dataset, input.field);
     const int samples = settings.numbers.at("arc_samples");
     const auto gathered = gather_arc_vertices(mesh, input.dataset, input.field, tree, samples);
-    return {{"nodes", tree_nodes(at.dataset(), at.field(), tree)},
-            {"arcs", tree_arcs(at.dataset(), at.field(), tree, samples, gathered)},
+    const MergeTree nothing;  // what the others have of nodes and arcs
+    const MergeTree& told = mesh.exchange().ranks().rank() == 0 ? tree : nothing;
+    return {{"nodes", tree_nodes(at.dataset(), at.field(), told)},
+            {"arcs", tree_arcs(at.dataset(), at.field(), told, samples, gathered)},
             {"segmentation", tree_segmentation(at.dataset(), tree)}};
   };
   return analysis;

@@ -62,6 +62,9 @@ std::vector<Id> vertices_in_order(const io::PointArray& order, std::size_t count
   std::vector<Id> vertices(count, no_id);
   std::visit(
       [&](const auto& values) {
+        if (values.size() != count)
+          throw Error("array '" + order.name + "' has " + std::to_string(values.size()) + " values for " +
+                      std::to_string(count) + " vertices");
         for (std::size_t v = 0; v < values.size(); ++v) {
           const auto value = values[v];
           const bool inside = value >= 0 && static_cast<double>(value) < static_cast<double>(count);
@@ -130,6 +133,7 @@ io::PointArray select_field(const io::Dataset& dataset, const std::string& name)
 }
 
 void add_height(io::Dataset& dataset, int axis) {
+  if (axis < 0 || axis > 2) throw Error("there is no axis " + std::to_string(axis) + ": 0 is x, 2 is z");
   const auto coordinates = [axis](const auto& points) -> io::PointArray::Values {
     using Coordinate = typename std::decay_t<decltype(points)>::non_const_value_type;
     std::vector<Coordinate> values(points.extent(0));

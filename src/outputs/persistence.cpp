@@ -3,6 +3,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include <gale/algorithms/order/require.hpp>
 #include <gale/base/error.hpp>
 #include <gale/outputs/field.hpp>
 #include <gale/outputs/persistence.hpp>
@@ -31,6 +32,7 @@ double range_of(const io::PointArray& field, const Ranks& ranks) {
 }  // namespace
 
 double threshold_of(const Persistence& persistence, const io::PointArray& field, const Ranks& ranks) {
+  gale::detail::require_threshold(persistence.value);
   if (!persistence.is_percent) return persistence.value;
   const double range = range_of(field, ranks);
   if (!std::isfinite(range))
@@ -85,6 +87,7 @@ std::vector<DiagramPoint> persistence_diagram(const DiscreteGradient& gradient, 
 
 std::vector<DiagramPoint> persistence_diagram(const HighestVertices& vertices, const PersistencePairs& pairs,
                                               const io::PointArray& field, double least) {
+  gale::detail::require_threshold(least);
   const auto highest = [&](int dimension, Id place) { return vertices.of_critical[dimension][place]; };
   const auto value = [&](Id vertex) { return value_at(field, vertex); };
   std::vector<DiagramPoint> diagram;

@@ -18,9 +18,9 @@ void require_consumers(const ComputeOptions& options) {
 namespace detail {
 
 bool kernels_read(const Mesh& mesh, const ComputeOptions& options) {
-  require_consumers(options);
   const Ranks& ranks = mesh.exchange().ranks();
   together(ranks, [&] {
+    require_consumers(options);
     if (options.consumers == ConsumerPlace::device && !mesh.on_device())
       throw Error("no consumers can be on the device: " + mesh.notice());
   });
@@ -41,9 +41,12 @@ Computing::Computing(const Mesh& mesh, const ComputeOptions& options, Computed* 
     : mesh_(mesh),
       options_(options),
       computed_(computed != nullptr ? *computed : own_),
-      limit_(std::max(options.threads, 1)),
+      limit_(options.threads),
       running_(computed_.seconds_running) {
-  require_consumers(options);
+  together(mesh.exchange().ranks(), [&] {
+    require_threads(options.threads);
+    require_consumers(options);
+  });
 }
 
 void Computing::fall_back(const OutOfMemory& error) {
@@ -66,6 +69,7 @@ Structure& Computing::structure(RelationSet relations) {
       together(mesh_.exchange().ranks(), [&] {
         there = options_.make_structure ? options_.make_structure(mesh_, relations)
                                         : make_structure(mesh_, relations, options_.structure);
+        if (there == nullptr) throw Error("the options' make_structure has made no structure");
       });
     }
     computed_.seconds_preparing += seconds;

@@ -65,10 +65,10 @@ class ProgressReport {
 /// threads, each with a consumer's number of its own. Each consumer's segments ascend. Progress is told on the calling
 /// thread, which is consumer 0, and at the end. The first exception that a body or the progress callback throws is
 /// thrown again here, when the segments under way are done; no other is begun, nor when it is asked to stop. Throws
-/// gale::Error for less than one thread.
+/// gale::Error for threads that nobody can have.
 template <class Body>
 void sweep(const Interval& segments, const SweepOptions& options, const Body& body) {
-  if (options.threads < 1) throw Error("a sweep takes at least 1 thread, not " + std::to_string(options.threads));
+  require_threads(options.threads);
   SegmentCursor cursor(segments, options.threads);
   ProgressReport report(segments.size(), options);
   on_threads(options.threads, [&](int consumer) {

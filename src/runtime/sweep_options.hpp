@@ -10,7 +10,7 @@ namespace gale {
 
 /// How to go through a mesh segment by segment.
 struct SweepOptions {
-  int threads = host_threads();  ///< consumers; at least 1
+  int threads = host_threads();  ///< consumers; 1 to most_threads
 
   /// Told now and then, by one of the consumers, how many segments are done; where kernels compute, at their end alone.
   std::function<void(Id done, Id segments)> progress;

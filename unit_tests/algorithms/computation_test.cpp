@@ -62,6 +62,19 @@ TEST_F(Computation, is_refused_where_kernels_are_wanted_that_cannot_be) {
   }
 }
 
+TEST_F(Computation, is_refused_without_a_structure_or_with_threads_that_nobody_has) {
+  ComputeOptions options = on(ConsumerPlace::host);
+  options.make_structure = [](const Mesh&, RelationSet) { return nullptr; };
+  EXPECT_EQ(message_of([&] { find_critical_points(order_, options); }),
+            "the options' make_structure has made no structure");
+  ComputeOptions many;
+  for (const int threads : {0, 100000}) {
+    many.threads = threads;
+    EXPECT_EQ(message_of([&] { find_critical_points(order_, many); }),
+              "threads is " + std::to_string(threads) + ", not 1 to 1024");
+  }
+}
+
 TEST_F(Computation, goes_on_with_the_structure_of_the_one_before) {
   Computed computed;
   const ComputeOptions host = on(ConsumerPlace::host);

@@ -240,7 +240,7 @@ TEST(MergeTree, asks_for_a_threshold_that_is_a_number_and_for_values) {
   EXPECT_EQ(message_of([&] { find_merge_tree(order, Tree::join, options); }),
             "a tree simplified by persistence needs the field's values");
   options.threshold = std::nan("");
-  EXPECT_EQ(message_of([&] { find_merge_tree(order, Tree::join, options); }), "the threshold of a tree is no number");
+  EXPECT_EQ(message_of([&] { find_merge_tree(order, Tree::join, options); }), "the persistence nan is not 0 or more");
 }
 
 }  // namespace gale::test

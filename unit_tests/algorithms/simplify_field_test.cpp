@@ -193,7 +193,7 @@ TEST(SimplifiedField, refuses_what_is_no_extremum_and_what_leaves_none) {
               simplify_field(
                   order, [](Id) { return 0.0; }, std::nan(""));
             }),
-            "the threshold of a simplified field is no number");
+            "the persistence nan is not 0 or more");
 }
 
 }  // namespace gale::test

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <limits>
 #include <set>
@@ -284,6 +285,19 @@ TEST(Simplify, refuses_a_complex_without_the_parts_that_it_needs) {
   parts.saddle_connectors = true;
   parts.descending_separatrices = parts.ascending_separatrices = false;
   EXPECT_EQ(message(parts), "no error");
+}
+
+TEST(Simplify, refuses_arguments_that_are_none) {
+  const ComplexOf found(strip_of(6), {0, 2, 4, 5, 3, 1});
+  const auto value = [&](Id v) { return found.field().at(v); };
+  EXPECT_EQ(message_of([&] { simplify(found.complex(), value, std::nan("")); }),
+            "the persistence nan is not 0 or more");
+  EXPECT_EQ(message_of([&] { simplify(found.complex(), value, -1); }), "the persistence -1.000000 is not 0 or more");
+  EXPECT_EQ(message_of([&] { simplify(found.complex(), nullptr, 1); }),
+            "a complex simplified by persistence needs the field's values");
+  SimplifyOptions options;
+  options.threads = most_threads + 1;
+  EXPECT_EQ(message_of([&] { simplify(found.complex(), value, 1, options); }), "threads is 1025, not 1 to 1024");
 }
 
 }  // namespace gale::test

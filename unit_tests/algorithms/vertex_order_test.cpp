@@ -7,6 +7,7 @@
 #include <gale/algorithms/vertex_order.hpp>
 #include <gale/base/error.hpp>
 
+#include "support/message_of.hpp"
 #include "support/segmentations.hpp"
 
 namespace gale::test {
@@ -123,6 +124,14 @@ TEST(VertexOrder, refuses_another_number_of_values) {
   } catch (const Error& error) {
     EXPECT_EQ(error.what(), "the field has 3 values, the mesh " + std::to_string(mesh.vertices()) + " vertices");
   }
+}
+
+TEST(VertexOrder, takes_a_place_of_each_vertex) {
+  const Mesh mesh = encode(mesh_named("one_tetrahedron"), 20);
+  EXPECT_EQ(message_of([&] {
+              VertexOrder::of_places(mesh, {2, 0, 1});
+            }),
+            "there are 3 places, the mesh has 4 vertices");
 }
 
 }  // namespace gale::test

@@ -6,6 +6,8 @@
 
 #include <gale/algorithms/critical_points.hpp>
 #include <gale/algorithms/discrete_gradient.hpp>
+#include <gale/algorithms/merge_tree.hpp>
+#include <gale/algorithms/morse_smale.hpp>
 #include <gale/algorithms/persistence.hpp>
 #include <gale/algorithms/simplify_field.hpp>
 #include <gale/runtime/make_structure.hpp>
@@ -135,6 +137,17 @@ TEST(WrongParts, have_cells_of_two_dimensions) {
                                  std::to_string(given.ranks.size() - 1) + " tetrahedra");
 }
 
+TEST(WrongParts, have_ids_of_cells_on_some_ranks) {
+  LastPart given;
+  if (given.ranks.size() == 1) return;
+  if (given.ranks.rank() == 0) given.part.add_cell(mesh_named("one_tetrahedron"), 0);
+  auto views = given.part.views();
+  if (given.ranks.rank() == 0) views.cell_ids = {};
+  EXPECT_EQ(message_of([&] { DistributedMesh(given.ranks, views); }), "cells have ids on all ranks or on none: rank " +
+                                                                          std::to_string(given.ranks.size() - 1) +
+                                                                          " has ids of cells, rank 0 has none");
+}
+
 TEST(WrongParts, have_cells_of_two_vertices) {
   LastPart given;
   auto views = given.part.views();
@@ -174,6 +187,69 @@ TEST(WrongParts, do_not_fit_the_ranks) {
   EXPECT_EQ(message_of([&] { DistributedMesh(ranks, part.views(), options); }),
             "a rank would hold " + std::to_string(count) + " cells, but at most " + std::to_string(count / 2) +
                 " fit: take at least " + std::to_string(count * ranks.size() / (count / 2) + 1) + " ranks");
+}
+
+TEST(WrongParts, are_held_to_the_least_of_all_limits) {
+  const Communicator ranks(MPI_COMM_WORLD);
+  const GivenPart part = part_of(holed_grid(9), "random", ranks);
+  PartitionOptions options;
+  if (ranks.rank() + 1 == ranks.size()) options.most_local = 1;
+  EXPECT_NE(message_of([&] { DistributedMesh(ranks, part.views(), options); }).find("but at most 1 fit"),
+            std::string::npos);
+}
+
+TEST(WrongOptions, of_one_rank_end_all_alike) {
+  const Communicator ranks(MPI_COMM_WORLD);
+  const InputMesh& input = mesh_named("holed_grid_9");
+  const GivenPart part = part_of(input, "random", ranks);
+  const DistributedMesh mesh = distribute(ranks, part, "random");
+  const VertexOrder order(mesh, part.values(std::vector<float>(input.vertices(), 1.0f)));
+  const DiscreteGradient gradient = find_discrete_gradient(order);
+  const bool is_last = ranks.rank() + 1 == ranks.size();
+  const std::string last = ranks.size() == 1 ? "" : "rank " + std::to_string(ranks.size() - 1) + ": ";
+  const auto one = [](Id) { return 1.0; };
+  MergeTreeOptions tree;
+  tree.threshold = 1;
+  if (!is_last) tree.value = one;
+  EXPECT_EQ(message_of([&] { find_merge_tree(order, Tree::join, tree); }),
+            last + "a tree simplified by persistence needs the field's values");
+  tree.value = one;
+  tree.threshold = is_last ? -1 : 1;
+  EXPECT_EQ(message_of([&] { find_merge_tree(order, Tree::join, tree); }),
+            last + "the persistence -1.000000 is not 0 or more");
+  EXPECT_EQ(message_of([&] { simplify_field(order, one, is_last ? -1 : 1); }),
+            last + "the persistence -1.000000 is not 0 or more");
+  ComputeOptions many;
+  many.threads = is_last ? 0 : 1;
+  EXPECT_EQ(message_of([&] { find_critical_points(order, many); }), last + "threads is 0, not 1 to 1024");
+  EXPECT_EQ(message_of([&] { find_morse_smale_complex(gradient, {}, many); }), last + "threads is 0, not 1 to 1024");
+  EXPECT_EQ(message_of([&] { gather_persistence_pairs(gradient, many); }), last + "threads is 0, not 1 to 1024");
+  if (have_device) return;
+  ComputeOptions place;
+  if (is_last) place.consumers = ConsumerPlace::device;
+  EXPECT_EQ(message_of([&] { find_discrete_gradient(order, place); }), last + "this gale has no device for consumers");
+}
+
+TEST(Stopping, ends_the_rank_that_is_asked_as_a_process_alone_and_fails_on_others) {
+  const Communicator ranks(MPI_COMM_WORLD);
+  const InputMesh& input = mesh_named("holed_grid_9");
+  const GivenPart part = part_of(input, "random", ranks);
+  const DistributedMesh mesh = distribute(ranks, part, "random");
+  const VertexOrder order(mesh, part.values(std::vector<float>(input.vertices(), 1.0f)));
+  const bool is_last = ranks.rank() + 1 == ranks.size();
+  StopRequest request;
+  if (is_last) request.stop();
+  const StopScope stoppable(&request);
+  std::string end = "none";
+  try {
+    find_discrete_gradient(order);
+  } catch (const Stopped&) {
+    end = "stopped";
+  } catch (const SharedError& error) {
+    end = error.what();
+  }
+  EXPECT_EQ(end,
+            is_last ? "stopped" : "rank " + std::to_string(ranks.size() - 1) + ": the computation was asked to stop");
 }
 
 TEST(PartsOfMeshes, are_refused_by_what_needs_the_whole) {

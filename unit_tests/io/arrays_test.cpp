@@ -1,6 +1,10 @@
+#include <cmath>
+#include <cstdint>
+
 #include <gtest/gtest.h>
 
 #include <gale/io/dataset.hpp>
+#include <gale/io/write.hpp>
 
 #include "io/io_fixtures.hpp"
 
@@ -47,6 +51,20 @@ TEST(Arrays, ExtractComponentIsNamedByItsNumber) {
   EXPECT_EQ(second.name, "pairs_1");
   EXPECT_EQ(second.components, 1);
   EXPECT_EQ(test::values_of<std::int16_t>(second), (std::vector<std::int16_t>{1, 11, 21}));
+  EXPECT_EQ(error_of([] { extract_component(pairs, 2); }), "the array 'pairs' has 2 components, no 2");
+  EXPECT_EQ(error_of([] { extract_component(pairs, -1); }), "the array 'pairs' has 2 components, no -1");
+}
+
+TEST(Arrays, ToCsvWritesWhatIsReadBack) {
+  EXPECT_EQ(to_csv({{"id", 1, std::vector<std::int64_t>{9007199254740993, -1}},
+                    {"a,\"b\"", 2, std::vector<float>{0.5f, 1e30f, -2, std::nanf("")}},
+                    {"value", 1, std::vector<double>{0.1, 1e-300}}}),
+            "id,\"a,\"\"b\"\"_0\",\"a,\"\"b\"\"_1\",value\n9007199254740993,0.5,1.0000000150474662e+30,"
+            "0.10000000000000001\n-1,-2,nan,1e-300\n");
+  EXPECT_EQ(error_of([] {
+              to_csv({{"a", 1, std::vector<int>{1, 2}}, {"b", 1, std::vector<int>{1}}});
+            }),
+            "the column 'b' has 1 rows, 'a' 2");
 }
 
 }  // namespace

@@ -159,6 +159,8 @@ TEST(SplitVoxels, RefusesRowsOfVoxelsAndEmptyResults) {
   value_of(image)[3] = std::nanf("");
   EXPECT_EQ(error_of([&] { split_voxels(image, std::nullopt); }),
             "no eight neighbouring voxels of 'value' are all finite");
+  image.arrays.front().values = std::vector<float>(7);
+  EXPECT_EQ(error_of([&] { split_voxels(image, 0); }), "the array 'value' has 7 rows for 8 voxels");
 }
 
 }  // namespace

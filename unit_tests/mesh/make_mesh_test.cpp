@@ -5,6 +5,7 @@
 
 #include "support/arrays.hpp"
 #include "support/input_mesh.hpp"
+#include "support/message_of.hpp"
 
 namespace gale::test {
 
@@ -101,6 +102,20 @@ TEST(MakeMesh, refuses_other_shapes) {
   const Matrix<double, Kokkos::LayoutRight, HostMemory> flat("flat", 4, 2);
   const Matrix<Id, Kokkos::LayoutRight, HostMemory> one("one", 1, 4);
   EXPECT_THROW(make_mesh(flat, one), Error) << "two columns";
+}
+
+TEST(MakeMesh, refuses_types_that_8_bits_do_not_hold) {
+  const auto points = filled_points<Matrix<double, Kokkos::LayoutRight, HostMemory>>();
+  const Kokkos::View<Id*, HostMemory> corners("corners", 4);
+  const Kokkos::View<Offset*, HostMemory> offsets("offsets", 2);
+  const Kokkos::View<int*, HostMemory> types("types", 1);
+  for (Id k = 0; k < 4; ++k) corners(k) = k;
+  offsets(1) = 4;
+  for (const int type : {266, -246}) {
+    types(0) = type;
+    EXPECT_EQ(message_of([&] { make_mesh(points, corners, offsets, types); }),
+              "cell 0 has the type " + std::to_string(type) + ", which is none of VTK's");
+  }
 }
 
 }  // namespace gale::test

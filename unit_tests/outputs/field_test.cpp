@@ -157,6 +157,13 @@ TEST(OrderOf, an_order_must_be_a_permutation) {
   EXPECT_EQ(refused(std::vector<int>{0, 1, 2, 4}), "3 has 4");
   EXPECT_EQ(refused(std::vector<std::int64_t>{0, -1, 2, 3}), "1 has -1");
   EXPECT_EQ(refused(std::vector<float>{0, 1, 2.5, 3}), "2 has 2.500000");
+  EXPECT_EQ(refused(std::vector<int>{0, 1, 2}), "array 'f_Order' has 3 values for 4 vertices");
+}
+
+TEST(AddHeight, knows_three_axes) {
+  io::Dataset dataset = with({});
+  EXPECT_EQ(message_of([&] { outputs::add_height(dataset, 3); }), "there is no axis 3: 0 is x, 2 is z");
+  EXPECT_EQ(message_of([&] { outputs::add_height(dataset, -1); }), "there is no axis -1: 0 is x, 2 is z");
 }
 
 }  // namespace gale::test

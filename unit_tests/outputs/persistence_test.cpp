@@ -1,3 +1,4 @@
+#include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -37,6 +38,17 @@ TEST(Persistence, there_are_no_percents_of_an_infinite_range) {
             "there are no percents of the range of 'height', which isn't finite");
 }
 
+TEST(Persistence, thresholds_are_0_or_more) {
+  const io::PointArray field{"field", 1, std::vector<double>{0, 1}};
+  for (const bool is_percent : {false, true}) {
+    EXPECT_EQ(message_of([&] { threshold_of({-1, is_percent}, field); }), "the persistence -1.000000 is not 0 or more");
+    EXPECT_EQ(message_of([&] {
+                threshold_of({std::nan(""), is_percent}, field);
+              }),
+              "the persistence nan is not 0 or more");
+  }
+}
+
 using outputs::DiagramPoint;
 
 namespace {
@@ -73,6 +85,7 @@ TEST(PersistenceDiagram, of_two_minima) {
   EXPECT_EQ(counts.essential[0], 1);
   EXPECT_EQ(diagram_of(of, 2).size(), 2u);
   EXPECT_EQ(diagram_of(of, 2.1).size(), 1u) << "what never ends stays";
+  EXPECT_EQ(message_of([&] { diagram_of(of, std::nan("")); }), "the persistence nan is not 0 or more");
 }
 
 TEST(PersistenceDiagram, as_lines_has_the_names_of_ttk) {

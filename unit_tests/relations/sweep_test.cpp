@@ -42,7 +42,7 @@ TEST(Sweep, refuses_less_than_one_thread) {
       detail::sweep(5, with_threads(threads), [](int, Id) { FAIL(); });
       ADD_FAILURE() << "accepted";
     } catch (const Error& error) {
-      EXPECT_EQ(error.what(), "a sweep takes at least 1 thread, not " + std::to_string(threads));
+      EXPECT_EQ(error.what(), "threads is " + std::to_string(threads) + ", not 1 to 1024");
     }
   }
 }

@@ -106,7 +106,7 @@ TEST(RelationOfMesh, tells_how_far_it_is_and_stops) {
 TEST(RelationOfMesh, refuses_less_than_one_thread) {
   const Mesh mesh = encode(mesh_named("the_papers"), 20);
   EXPECT_EQ(message_of([&] { relation_of(mesh, Relation::EV, Ids::input, with_threads(0)); }),
-            "a relation takes at least 1 thread, not 0");
+            "threads is 0, not 1 to 1024");
 }
 
 }  // namespace gale::test

@@ -108,10 +108,19 @@ def ids(array: Any, name: str = "tetrahedra") -> Any:
 
 def offsets(array: Any) -> Any:
     """As int64, from any integers."""
+    return _int64(array, "offsets", "they say where each cell begins")
+
+
+def global_ids(array: Any, name: str) -> Any:
+    """As int64, from any integers; or from nothing, whatever its type."""
+    return _int64(np.zeros(np.shape(array), np.int64) if np.size(array) == 0 else array, name, "they are global ids")
+
+
+def _int64(array: Any, name: str, meaning: str) -> Any:
     array = _host_array(array)
     if array.dtype.kind not in "iu":
-        raise Error(f"offsets of {array.dtype} are not integers: they say where each cell begins")
-    _require_64_bits(array, "offsets have")
+        raise Error(f"{name} of {array.dtype} are not integers: {meaning}")
+    _require_64_bits(array, f"{name} have")
     return _converted(array, np.dtype(np.int64))
 
 

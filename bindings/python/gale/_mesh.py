@@ -469,8 +469,12 @@ class Mesh:
                  {key: _text(key, value) for key, value in (choices or {}).items()},
                  {key: _whole(key, value) for key, value in (numbers or {}).items()})
         with told(progress, analysis) as tell:
-            return self._mesh.analyse(analysis, _arrays.field(field), _text("name", name), given,
-                                      _whole("threads", threads), tell)
+            return self._found(analysis, _arrays.field(field), _text("name", name), given, _whole("threads", threads), tell)
+
+    def _found(self, *arguments: Any) -> Dict[str, Any]:
+        """What an analysis finds with (analysis, field, name, options, threads, progress), which are of the right types."""
+        found: Dict[str, Any] = self._mesh.analyse(*arguments)
+        return found
 
 
 @_documented()

@@ -8,15 +8,7 @@ import numpy as np
 
 from . import _arrays, _gale
 from ._gale import Error
-from ._mesh import Mesh, told
-
-
-def _ids(values: Any, name: str) -> Any:
-    """As int64, read where they are if they are so."""
-    ids = np.asarray(values)
-    if ids.dtype.kind not in "iu" and ids.size > 0:
-        raise Error(f"{name} are {ids.dtype}, not integers")
-    return np.ascontiguousarray(ids, np.int64)
+from ._mesh import Mesh, _flag, _whole
 
 
 def _agree(comm: Any, failure: Optional[Exception], call: str = "") -> None:
@@ -71,15 +63,16 @@ class DistributedMesh(Mesh):
             raise Error("this gale is built without MPI: GALE_ENABLE_MPI")
         from mpi4py import MPI
 
-        if not isinstance(comm, MPI.Comm):
-            raise Error(f"what is of {type(comm).__name__} is no communicator of mpi4py's")
+        if not isinstance(comm, MPI.Intracomm) or comm == MPI.COMM_NULL:
+            raise Error(f"{comm!r} is no communicator of mpi4py's that has ranks of one group")
         self._comm = comm
         part, failure = None, None
         try:
-            rows = np.asarray(cells)
-            corners = np.zeros((0, 4), np.int64) if rows.size == 0 else _ids(rows, "cells")
-            part = (_ids(ids, "ids"), _arrays.points(points), corners,
-                    None if cell_ids is None else _ids(cell_ids, "cell ids"), repartition, capacity)
+            corners = _arrays.global_ids(cells, "cells")
+            part = (_arrays.global_ids(ids, "ids"), _arrays.points(points),
+                    np.zeros((0, 4), np.int64) if corners.size == 0 else corners,
+                    None if cell_ids is None else _arrays.global_ids(cell_ids, "cell ids"),
+                    _flag("repartition", repartition), _whole("capacity", capacity))
             inner.check_part(*part)
         except Exception as error:
             failure = error
@@ -117,16 +110,11 @@ class DistributedMesh(Mesh):
     def _relation(self, name: str, threads: int, progress: Any) -> Tuple[np.ndarray, np.ndarray, int]:
         self._refuse("relations")
 
-    def _analyse(self, analysis: str, field: Any, name: str, threads: int, progress: Any,
-                 flags: Optional[Dict[str, bool]] = None, thresholds: Optional[Dict[str, Tuple[float, bool]]] = None,
-                 choices: Optional[Dict[str, str]] = None, numbers: Optional[Dict[str, int]] = None) -> Dict[str, Any]:
-        given = flags or {}, thresholds or {}, choices or {}, numbers or {}
-        with told(progress, analysis) as tell:
-            values = _arrays.field(field)
-            self._mesh.check(analysis, values, name, given, threads, tell)
-            self._has_begun = True
-            _agree(self._comm, None, f"{analysis} of {(name, *given)}")
-            return self._mesh.analyse(analysis, values, name, given, threads, tell)
+    def _found(self, analysis: Any, values: Any, name: Any, given: Any, threads: Any, tell: Any) -> Dict[str, Any]:
+        self._mesh.check(analysis, values, name, given, threads, tell)
+        self._has_begun = True
+        _agree(self._comm, None, f"{analysis} of {(name, *given)}")
+        return super()._found(analysis, values, name, given, threads, tell)
 
     def to_pyvista(self) -> Any:
         self._refuse("grid of PyVista's")

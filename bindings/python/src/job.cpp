@@ -157,9 +157,8 @@ void set_openmp_threads([[maybe_unused]] int count) {
 }  // namespace
 
 ComputeOptions Job::sweep_options(int threads) {
-  constexpr int most = 1024;  // as the command takes; OpenMP ends the process where the system starts no more
-  if (threads < 0 || threads > most)
-    throw Error("threads is " + std::to_string(threads) + ", not 0 to " + std::to_string(most));
+  if (threads < 0 || threads > most_threads)
+    throw Error("threads is " + std::to_string(threads) + ", not 0 to " + std::to_string(most_threads));
   ComputeOptions options;
   if (threads > 0) options.threads = threads;
   if (!progress_.is_none()) options.progress = [this](Id done, Id all) { tell(done, all); };

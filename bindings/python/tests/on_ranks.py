@@ -75,6 +75,7 @@ for values, repartition in ((field, False), (np.round(field), True), (field.asty
     found, expected = part.merge_tree(values[ids], arc_samples=2), whole.merge_tree(values, arc_samples=2)
     check(COMM.rank != 0 or np.array_equal(found.nodes.points, expected.nodes.points), "nodes")
     check(COMM.rank != 0 or np.array_equal(found.arcs.points, expected.arcs.points), "points of arcs")
+    check(COMM.rank == 0 or (len(found.nodes["Scalar"]), len(found.arcs.cell_arrays["upNodeId"])) == (0, 0), "nodes elsewhere")
     same("arcs", rows(part.vertex_ids[own_vertices], found.segmentation["SegmentationId"][own_vertices]),
          sorted_rows(np.arange(len(points)), expected.segmentation["SegmentationId"]))
 
@@ -86,6 +87,7 @@ for values, repartition in ((field, False), (np.round(field), True), (field.asty
     check(COMM.rank != 0 or np.array_equal(found.nodes.points, expected.nodes.points), "nodes of a simplified field")
 
 for wrong in (lambda: part.relation("VV"), lambda: gale.DistributedMesh(1, [], [], []),
+              lambda: gale.DistributedMesh(MPI.COMM_NULL, [], [], []),
               lambda: part.critical_points(values[ids][1:])):
     try:
         wrong()
@@ -115,12 +117,29 @@ for call, naming in (
         (lambda: part.persistence_diagram(own, "much" if is_last else "2%"), "much"),
         (lambda: part.critical_points(*[own][is_last:]), "field"),
         (lambda: gale.DistributedMesh(COMM, ids / 2 if is_last else ids, points[ids], []), "integers"),
-        (lambda: gale.DistributedMesh(COMM, ids, points[ids], [], capacity="no" if is_last else 64), "")):
+        (lambda: gale.DistributedMesh(COMM, ids.astype(np.uint64) + np.uint64(2**63) * is_last, points[ids], []), "too large"),
+        (lambda: gale.DistributedMesh(COMM, np.ma.masked_all(len(ids), int) if is_last else ids, points[ids], []), "masked"),
+        (lambda: gale.DistributedMesh(COMM, ids, points[ids], [], repartition="no" if is_last else True), "'no'"),
+        (lambda: gale.DistributedMesh(COMM, ids, points[ids], [], capacity="no" if is_last else 64), "'no'")):
     expect(call, naming)
 if COMM.size > 1:
     expect(lambda: part.morse_smale(own, separatrices2=is_last), "different things")
     expect(lambda: part.merge_tree(own, "join" if is_last else "split"), "different things")
     expect(lambda: part.merge_tree(own) if is_last else part.critical_points(own), "different things")
+
+
+def give_up(done, of_all):
+    raise ValueError("enough")
+
+
+for _ in range(20):  # until a short run tells its progress
+    try:
+        part.morse_smale(own, progress=give_up if COMM.rank == 0 else None)
+    except (gale.Error, ValueError) as error:
+        check(str(error) == ("enough" if COMM.rank == 0 else "rank 0: the computation was asked to stop"), error)
+        break
+else:
+    fail("not stopped")
 nobody = values[ids] if COMM.rank else values[ids].astype(np.float64)
 try:
     part.critical_points(nobody)

@@ -130,6 +130,7 @@ void to_poly_data(const io::PointSet& points, vtkDataSetAttributes* from, vtkPol
     const auto rows = vtkSmartPointer<vtkAbstractArray>::Take(array->NewInstance());
     rows->SetName(array->GetName());
     rows->SetNumberOfComponents(array->GetNumberOfComponents());
+    rows->CopyComponentNames(array);
     rows->SetNumberOfTuples(count);
     array->GetTuples(ids, rows);
     arrays->AddArray(rows);

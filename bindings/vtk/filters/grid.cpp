@@ -8,7 +8,6 @@
 #include <vector>
 
 #include <vtkCellArray.h>
-#include <vtkCellData.h>
 #include <vtkCellType.h>
 #include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
@@ -19,7 +18,6 @@
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkRectilinearGrid.h>
-#include <vtkStructuredGrid.h>
 #include <vtkTypeInt32Array.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
@@ -29,6 +27,7 @@
 #include <gale/mesh/make_mesh.hpp>
 
 #include "arrays.hpp"
+#include "visible_cells.hpp"
 
 namespace gale::vtk {
 
@@ -74,17 +73,19 @@ bool has_tetrahedra_alone(vtkUnstructuredGrid* grid) {
   return std::all_of(all, all + count, [](unsigned char type) { return type == VTK_TETRA; });
 }
 
+void require_dimension(const std::vector<std::uint8_t>& types) {
+  const CellType* const first = find_cell_type(types.front());
+  if (first == nullptr || highest_dimension(view_of(types.data(), static_cast<vtkIdType>(types.size()))) >= 2) return;
+  throw Error(std::string("no cell has two or three dimensions: cell 0 is a ") + first->name);
+}
+
 /// The mesh of cells among which are polyhedra: VTK has their faces apart.
 Mesh mesh_with_polyhedra(vtkUnstructuredGrid* grid, const std::vector<std::uint8_t>& types,
                          const io::Dataset::Positions& points, int capacity) {
   std::vector<std::int64_t> corners, offsets = {0};
   const auto ids = vtkSmartPointer<vtkIdList>::New();
   for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell) {
-    if (types[static_cast<std::size_t>(cell)] == VTK_POLYHEDRON) {
-      grid->GetFaceStream(cell, ids);
-    } else {
-      grid->GetCellPoints(cell, ids);
-    }
+    get_entries(grid, cell, ids);
     for (vtkIdType k = 0; k < ids->GetNumberOfIds(); ++k) corners.push_back(ids->GetId(k));
     offsets.push_back(static_cast<std::int64_t>(corners.size()));
   }
@@ -119,29 +120,10 @@ Mesh mesh_of(vtkUnstructuredGrid* grid, const io::Dataset::Positions& points, in
     types.push_back(static_cast<std::uint8_t>(grid->GetCellType(cell)));
     offsets.push_back(offsets.back() + cells->GetCellSize(cell));
   }
+  require_dimension(types);
   if (std::find(types.begin(), types.end(), VTK_POLYHEDRON) != types.end())
     return mesh_with_polyhedra(grid, types, points, capacity);
   return read_in_place([&](const auto* ids) { return mesh_of(points, ids, corner_count, offsets, types, capacity); });
-}
-
-vtkSmartPointer<vtkUnstructuredGrid> unstructured(vtkPointSet* cells) {
-  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
-  grid->SetPoints(cells->GetPoints());
-  grid->GetPointData()->ShallowCopy(cells->GetPointData());
-  auto* const structured = vtkStructuredGrid::SafeDownCast(cells);
-  const auto ids = vtkSmartPointer<vtkIdList>::New();
-  std::vector<vtkIdType> kept;
-  grid->AllocateEstimate(cells->GetNumberOfCells(), 8);
-  for (vtkIdType cell = 0; cell < cells->GetNumberOfCells(); ++cell) {
-    if (structured != nullptr && structured->IsCellVisible(cell) == 0) continue;
-    cells->GetCellPoints(cell, ids);
-    grid->InsertNextCell(cells->GetCellType(cell), ids);
-    kept.push_back(cell);
-  }
-  grid->GetCellData()->CopyAllocate(cells->GetCellData(), static_cast<vtkIdType>(kept.size()));
-  for (std::size_t k = 0; k < kept.size(); ++k)
-    grid->GetCellData()->CopyData(cells->GetCellData(), kept[k], static_cast<vtkIdType>(k));
-  return grid;
 }
 
 namespace {
@@ -160,15 +142,36 @@ void place(vtkImageData* from, io::Image& image) {
   }
 }
 
-/// Adds the arrays of all voxels, the field first.
+/// Adds the arrays of all voxels, the field first and no other of its name.
 void add_arrays(vtkPointData* from, vtkDataArray* field, io::Image& image) {
   image.arrays.push_back(point_array(field));
-  if (image.arrays[0].name.empty()) image.arrays[0].name = "field";
   for (int k = 0; k < from->GetNumberOfArrays(); ++k) {
     vtkDataArray* const array = from->GetArray(k);
-    if (array == nullptr || array == field || array->GetName() == nullptr) continue;
+    if (array == nullptr || array->GetName() == nullptr || image.arrays[0].name == array->GetName()) continue;
     if (array->GetDataType() != VTK_BIT) image.arrays.push_back(point_array(array));
   }
+}
+
+/// Makes arrays active that have the names of those that are so elsewhere, and names all components as there.
+void copy_roles(vtkPointData* from, vtkPointData* to) {
+  for (int k = 0; k < to->GetNumberOfArrays(); ++k)
+    to->GetArray(k)->CopyComponentNames(from->GetArray(to->GetArrayName(k)));
+  for (int role = 0; role < vtkDataSetAttributes::NUM_ATTRIBUTES; ++role) {
+    vtkAbstractArray* const active = from->GetAbstractAttribute(role);
+    if (active != nullptr && active->GetName() != nullptr) to->SetActiveAttribute(active->GetName(), role);
+  }
+}
+
+/// Which simplices of a grid are of these cells of its image.
+std::vector<bool> simplices_of(const std::vector<bool>& cells, const Grid& grid) {
+  const GridView view = grid.in<HostMemory>();
+  std::vector<bool> simplices;
+  for (Id cube = 0; cube < grid.cubes(); ++cube) {
+    const auto [x, y, z] = view.place_of_cube(cube);
+    const Offset cell = x + Offset(view.nx - 1) * (y + Offset(view.ny - 1) * z);
+    simplices.insert(simplices.end(), static_cast<std::size_t>(view.cells_per_cube()), cells[cell]);
+  }
+  return simplices;
 }
 
 std::array<vtkDataArray*, 3> axes_of(vtkRectilinearGrid* grid) {
@@ -231,7 +234,11 @@ Voxels voxels_of(vtkDataSet* voxels, vtkDataArray* field, std::optional<double> 
   const auto points = points_of(dataset.points);
   mesh->SetPoints(rectilinear != nullptr ? points_along(rectilinear, points) : points);
   add(dataset.arrays, mesh->GetPointData());
-  return {*dataset.grid, mesh};
+  copy_roles(voxels->GetPointData(), mesh->GetPointData());
+  const std::vector<bool> left_out = invisible_cells(voxels);
+  if (left_out.empty()) return {*dataset.grid, mesh};
+  write_cells(*dataset.grid, mesh);
+  return {std::nullopt, without(simplices_of(left_out, *dataset.grid), mesh)};
 }
 
 void write_cells(const Grid& grid, vtkUnstructuredGrid* mesh) {

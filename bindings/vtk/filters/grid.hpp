@@ -10,7 +10,6 @@
 class vtkUnstructuredGrid;
 class vtkDataArray;
 class vtkDataSet;
-class vtkPointSet;
 
 namespace gale::vtk {
 
@@ -18,22 +17,20 @@ namespace gale::vtk {
 io::Dataset::Positions positions_of(vtkUnstructuredGrid* grid);
 
 /// The mesh of the grid's cells (`split_cells`, `split_polygons`), which are read where they are unless there are
-/// polyhedra. Throws gale::Error as make_mesh does.
+/// polyhedra. Throws gale::Error where no cell has two or three dimensions, and as make_mesh does. Precondition: there
+/// are cells.
 Mesh mesh_of(vtkUnstructuredGrid* grid, const io::Dataset::Positions& points, int capacity);
-
-/// The cells of another data set, such as a structured grid or a surface, that are visible, with its points and arrays.
-vtkSmartPointer<vtkUnstructuredGrid> unstructured(vtkPointSet* cells);
 
 /// Voxels as a mesh.
 struct Voxels {
-  Grid grid;                                     ///< what its cells are
-  vtkSmartPointer<vtkUnstructuredGrid> without;  ///< its points, with their arrays; no cells
+  std::optional<Grid> grid;                   ///< what its cells are; none where invisible ones are left out
+  vtkSmartPointer<vtkUnstructuredGrid> mesh;  ///< its points, with their arrays; cells only where there is no grid
 };
 
 /// The mesh of the voxels of an image or a rectilinear grid whose values are above `above`, or are finite without it
-/// (`io::split_voxels`), with all point arrays of numbers. `field` is the array that `above` is about; one without a
-/// name is called "field". Throws gale::Error for no field, for axes that aren't as long as their dimensions, and as
-/// io::split_voxels does. Precondition: each array has a row for each point.
+/// (`io::split_voxels`), but for `invisible_cells`, with all point arrays of numbers: `field` first, which `above` is
+/// about. Throws gale::Error for no field, for axes that aren't as long as their dimensions, and as io::split_voxels
+/// does. Precondition: each array has a row for each point, and the field a name.
 Voxels voxels_of(vtkDataSet* voxels, vtkDataArray* field, std::optional<double> above);
 
 /// Gives a mesh the tetrahedra, or triangles, of a grid.

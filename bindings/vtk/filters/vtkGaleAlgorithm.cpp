@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <Kokkos_Core.hpp>
+#include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkDataSet.h>
 #include <vtkImageData.h>
@@ -29,6 +30,7 @@
 #include "arrays.hpp"
 #include "grid.hpp"
 #include "initialize_kokkos.hpp"
+#include "visible_cells.hpp"
 
 namespace {
 
@@ -49,29 +51,35 @@ struct InputProperties {
 /// made it alone.
 class Run {
  public:
-  /// `field` is an array of the input's points, or nullptr. Throws gale::Error for an input that is no mesh, and
-  /// Aborted.
+  /// `field` is an array of the input's points, which has a name, or nullptr. Throws gale::Error for an input that is
+  /// no mesh, and Aborted.
   Run(vtkAlgorithm& filter, vtkDataSet* input, vtkDataArray* field, const InputProperties& options)
       : filter_(filter),
         threads_(options.threads > 0 ? options.threads : gale::host_threads()),
         limit_(threads_),
-        grid_(vtkUnstructuredGrid::SafeDownCast(input)),
         field_(field) {
-    auto* const points = vtkPointSet::SafeDownCast(input);
-    if (!grid_ && points) grid_ = gale::vtk::unstructured(points);
-    if (!grid_) {
+    if (auto* const mesh = vtkPointSet::SafeDownCast(input)) {
+      grid_ = gale::vtk::visible_cells(mesh);
+    } else {
       tell(0, "Splitting voxels");
       gale::vtk::Voxels voxels = gale::vtk::voxels_of(input, field, options.above);
       voxels_ = std::move(voxels.grid);
-      grid_ = voxels.without;
-      field_ = grid_->GetPointData()->GetArray(0);
+      grid_ = voxels.mesh;
       if (options.is_octree_wanted) write_cells();
     }
+    if (grid_ != input) {
+      if (field) field_ = grid_->GetPointData()->GetArray(field->GetName());
+      grid_->SetFieldData(input->GetFieldData());
+    }
+    if (is_empty()) return;
     tell(0, "Dividing the mesh into segments");
     dataset_.points = gale::vtk::positions_of(grid_);
     mesh_ =
         voxels_ ? gale::Mesh(*voxels_, options.capacity) : gale::vtk::mesh_of(grid_, dataset_.points, options.capacity);
   }
+
+  /// Whether no cell is left.
+  bool is_empty() const { return !voxels_ && grid_->GetNumberOfCells() == 0; }
 
   const gale::Mesh& mesh() const { return *mesh_; }
 
@@ -125,7 +133,10 @@ class Run {
     gale::io::Dataset dataset;
     vtkDataArray* const order = grid_->GetPointData()->GetArray((field.name + "_Order").c_str());
     if (order != nullptr) dataset.arrays.push_back(gale::vtk::point_array(order));
-    return gale::outputs::order_of(mesh(), dataset, field);
+    std::string note;
+    gale::VertexOrder found = gale::outputs::order_of(mesh(), dataset, field, &note);
+    if (!note.empty()) vtkWarningWithObjectMacro(&filter_, << note);
+    return found;
   }
 
   void tell(double progress, const char* text) const {
@@ -177,29 +188,61 @@ vtkDataArray* first_field(vtkPointData* arrays) {
 }
 
 /// A server of several processes asks each for a piece, and gives it a piece: which says nothing of the whole mesh.
-void require_whole(vtkInformation* output) {
-  const int pieces = output->Get(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES());
-  if (pieces <= 1) return;
-  throw gale::Error("asked for piece " +
-                    std::to_string(output->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER())) + " of " +
-                    std::to_string(pieces) + ": the whole mesh is needed, in one process");
+void require_whole(vtkInformationVector* outputs) {
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port) {
+    vtkInformation* const output = outputs->GetInformationObject(port);
+    const int pieces = output->Get(Pipeline::UPDATE_NUMBER_OF_PIECES());
+    if (pieces <= 1) continue;
+    throw gale::Error("asked for piece " + std::to_string(output->Get(Pipeline::UPDATE_PIECE_NUMBER())) + " of " +
+                      std::to_string(pieces) + ": the whole mesh is needed, in one process");
+  }
 }
 
-/// The input. Throws gale::Error if it is no mesh, or where an array hasn't one row a point.
+/// Throws gale::Error where an array hasn't one row for each of so many points or cells.
+void require_rows(vtkDataSetAttributes* arrays, vtkIdType rows, const std::string& array_of, const char* whole) {
+  for (int k = 0; k < arrays->GetNumberOfArrays(); ++k) {
+    vtkAbstractArray* const array = arrays->GetAbstractArray(k);
+    if (array->GetNumberOfTuples() == rows) continue;
+    throw gale::Error(array_of + "array '" + (array->GetName() ? array->GetName() : "") + "' has " +
+                      std::to_string(array->GetNumberOfTuples()) + " rows for " + std::to_string(rows) + whole);
+  }
+}
+
+/// The field's name, where it has none: one that neither an array nor its order has.
+std::string free_name(vtkFieldData* arrays) {
+  std::string name = "field";
+  while (arrays->HasArray(name.c_str()) || arrays->HasArray((name + "_Order").c_str())) name += '_';
+  return name;
+}
+
+/// The mesh; a copy with a name for the field where it has none.
+vtkSmartPointer<vtkDataSet> with_name(vtkDataSet* mesh, vtkSmartPointer<vtkDataArray>& field) {
+  if (!field || (field->GetName() && *field->GetName())) return mesh;
+  const auto copy = vtkSmartPointer<vtkDataSet>::Take(mesh->NewInstance());
+  copy->ShallowCopy(mesh);
+  const auto named = vtkSmartPointer<vtkDataArray>::Take(field->NewInstance());
+  named->ShallowCopy(field);
+  vtkPointData* const arrays = copy->GetPointData();
+  named->SetName(free_name(arrays).c_str());
+  const bool is_active = arrays->GetScalars() == field;
+  for (int k = arrays->GetNumberOfArrays() - 1; k >= 0; --k)
+    if (arrays->GetAbstractArray(k) == field) arrays->RemoveArray(k);
+  arrays->AddArray(named);
+  if (is_active) arrays->SetActiveScalars(named->GetName());
+  field = named;
+  return copy;
+}
+
+/// The input. Throws gale::Error if it is no mesh, or where an array hasn't one row a point or a cell.
 vtkDataSet* mesh_of(vtkInformationVector* inputs) {
   vtkDataObject* const input = vtkDataObject::GetData(inputs);
   if (!vtkPointSet::SafeDownCast(input) && !vtkImageData::SafeDownCast(input) &&
       !vtkRectilinearGrid::SafeDownCast(input))
     throw gale::Error(std::string("the input is a ") + input->GetClassName() + ", not a grid, a surface or an image");
   auto* const mesh = vtkDataSet::SafeDownCast(input);
-  vtkPointData* const arrays = mesh->GetPointData();
-  for (int k = 0; k < arrays->GetNumberOfArrays(); ++k) {
-    vtkAbstractArray* const array = arrays->GetAbstractArray(k);
-    if (array->GetNumberOfTuples() == mesh->GetNumberOfPoints()) continue;
-    throw gale::Error(std::string("array '") + (array->GetName() ? array->GetName() : "") + "' has " +
-                      std::to_string(array->GetNumberOfTuples()) + " rows for " +
-                      std::to_string(mesh->GetNumberOfPoints()) + " points");
-  }
+  require_rows(mesh->GetPointData(), mesh->GetNumberOfPoints(), "", " points");
+  require_rows(mesh->GetCellData(), mesh->GetNumberOfCells(), "cell ", " cells");
   return mesh;
 }
 
@@ -282,13 +325,16 @@ int vtkGaleAlgorithm::RequestData(vtkInformationVector** inputs, vtkInformationV
   if (this->UseThreshold) options.above = this->Threshold;
   options.is_octree_wanted = this->Asked->analysis == nullptr;
   try {
-    require_whole(outputs->GetInformationObject(0));
+    require_whole(outputs);
     vtkDataSet* const mesh = mesh_of(inputs[0]);
     const bool has_points = vtkUnstructuredGrid::SafeDownCast(mesh) || mesh->GetNumberOfPoints() > 0;
     if (mesh->GetNumberOfCells() == 0 || !has_points)
       return 1;  // as empty blocks are: the pipeline has emptied the outputs
     initialize_once();
-    Run run(*this, mesh, this->SelectField(inputs), options);
+    vtkSmartPointer<vtkDataArray> field = this->SelectField(inputs);
+    const vtkSmartPointer<vtkDataSet> named = with_name(mesh, field);
+    Run run(*this, named, field, options);
+    if (run.is_empty()) return 1;
     this->Asked->settings = {};
     this->Ask();
     if (this->Asked->analysis) {

@@ -6,10 +6,12 @@
  * tetrahedra or triangles, a vtkPolyData, whose polygons and strips are split into triangles, or a vtkImageData or
  * vtkRectilinearGrid, of which the voxels (its points) with values above a threshold are: into six tetrahedra for each
  * cube of eight, or, where it is flat, two triangles for each square of four. It is read where it is and never changed.
- * Where it has no cells the outputs are empty. Each block of a composite dataset is a mesh of its own. The field is the
- * point array of one component that SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name)
- * names, else the active scalars, else the first such array. Where the input has an array NAME_Order beside it, the
- * vertices are ordered by that.
+ * Cells that vtkGhostType calls hidden, refined or duplicates, and cells with a hidden point, are left out, with the
+ * points that no other cell has. Where no cells are left the outputs are empty. Each block of a composite dataset is a
+ * mesh of its own. The field is the point array of one component that
+ * SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name) names, else the active scalars, else
+ * the first such array; without a name it is called "field". Where the input has an array NAME_Order beside it, the
+ * vertices are ordered by that, and a warning says whether it contradicts the field.
  *
  * Kokkos is initialized by the first filter that runs, unless the program did that, and ended with the process.
  */
@@ -36,9 +38,9 @@ class VTKFILTERSGALE_EXPORT vtkGaleAlgorithm : public vtkAlgorithm {
 
   //@{
   /**
-   * How many threads to use; 0, the default: as many as there are cores. The result doesn't depend on it.
+   * How many threads to use, at most 1024; 0, the default: as many as there are cores. The result doesn't depend on it.
    */
-  vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
+  vtkSetClampMacro(NumberOfThreads, int, 0, 1024);
   vtkGetMacro(NumberOfThreads, int);
   //@}
 

@@ -2,13 +2,21 @@
 
 #include <gtest/gtest.h>
 #include <vtkCell.h>
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
 #include <vtkCellType.h>
 #include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkFloatArray.h>
 #include <vtkGaleAlgorithm.h>
+#include <vtkGaleCriticalPoints.h>
+#include <vtkGaleSimplifiedField.h>
 #include <vtkGenericCell.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkStructuredGrid.h>
 
 #include <gale/mesh/cells/cell_types.hpp>
 
@@ -70,6 +78,13 @@ TEST_F(Inputs, TetrahedraThatAreNone) {
   flat->GetPointData()->ShallowCopy(grid_->GetPointData());
   flat->InsertNextCell(VTK_TRIANGLE, 3, triangle);
   expect_line(flat, "");  // a mesh of one triangle
+  vtkNew<vtkCellArray> line;
+  line->InsertNextCell(3, triangle);
+  vtkNew<vtkPolyData> lines;
+  lines->SetPoints(grid_->GetPoints());
+  lines->GetPointData()->ShallowCopy(grid_->GetPointData());
+  lines->SetLines(line);
+  expect_line(lines, "no cell has two or three dimensions: cell 0 is a vtkPolyLine");
 }
 
 TEST_F(Inputs, ArraysOfEveryType) {
@@ -139,6 +154,101 @@ TEST_F(Inputs, ArraysThatAreNoField) {
     for (const auto& filter : all())
       EXPECT_EQ(line(*filter, input, "").empty(),
                 filter->IsA("vtkGaleSegmentation") && input->IsA("vtkUnstructuredGrid"));
+  }
+}
+
+TEST_F(Inputs, CellArraysOfOtherLengthsAreRefused) {
+  vtkNew<vtkStructuredGrid> structured;
+  structured->SetDimensions(n, n, n);
+  structured->SetPoints(grid_->GetPoints());
+  structured->GetPointData()->ShallowCopy(grid_->GetPointData());
+  for (const vtkIdType rows : {0, 3, 1000}) {
+    vtkNew<vtkDoubleArray> other;
+    other->SetName("other");
+    other->SetNumberOfTuples(rows);
+    other->Fill(1);
+    for (const vtkSmartPointer<vtkDataSet>& input :
+         {vtkSmartPointer<vtkDataSet>(structured.Get()), vtkSmartPointer<vtkDataSet>(grid_of(dataset_).Get()),
+          vtkSmartPointer<vtkDataSet>(image_of(dataset_, n).Get())}) {
+      input->GetCellData()->AddArray(other);
+      expect_line(input, "cell array 'other' has " + std::to_string(rows) + " rows for " +
+                             std::to_string(input->GetNumberOfCells()) + " cells");
+    }
+  }
+}
+
+/// A field without a name, the active scalars, beside an array that has the name which GALE gives it otherwise.
+TEST_F(Inputs, FieldsWithoutANameGetAFreeOne) {
+  vtkNew<vtkFloatArray> other;
+  other->SetName("field");
+  for (vtkIdType k = 0; k < grid_->GetNumberOfPoints(); ++k) other->InsertNextValue(static_cast<float>(k % 7));
+  for (const vtkSmartPointer<vtkDataSet>& input :
+       {vtkSmartPointer<vtkDataSet>(grid_of(dataset_).Get()), vtkSmartPointer<vtkDataSet>(image_of(dataset_, n).Get()),
+        vtkSmartPointer<vtkDataSet>(rectilinear_of({0, 1, 2, 3, 4}).Get())}) {
+    SCOPED_TRACE(input->GetClassName());
+    vtkNew<vtkGaleCriticalPoints> points;
+    points->SetInputData(input);
+    points->Update();
+    vtkNew<vtkPolyData> expected;
+    expected->ShallowCopy(points->GetOutput());
+    input->GetPointData()->GetScalars()->SetName(nullptr);
+    input->GetPointData()->AddArray(other);
+    ASSERT_EQ(input->GetPointData()->GetNumberOfArrays(), 2);
+    points->Modified();
+    points->Update();
+    ASSERT_EQ(points->GetOutput()->GetNumberOfPoints(), expected->GetNumberOfPoints());
+    for (vtkIdType k = 0; k < expected->GetNumberOfPoints(); ++k)
+      EXPECT_EQ(points->GetOutput()->GetPointData()->GetArray("field_")->GetTuple1(k),
+                expected->GetPointData()->GetArray("field")->GetTuple1(k));
+    vtkNew<vtkGaleSimplifiedField> simplified;
+    simplified->SetInputData(input);
+    simplified->SimplifyOn();
+    simplified->SetPersistence(100);
+    simplified->Update();
+    vtkPointData* const found = simplified->GetOutput()->GetPointData();
+    EXPECT_EQ(found->GetNumberOfArrays(), 3);
+    ASSERT_TRUE(found->HasArray("field_Order") == 0 && found->HasArray("field__Order") == 1);
+    EXPECT_EQ(found->GetScalars(), found->GetArray("field_"));
+    points->SetInputConnection(simplified->GetOutputPort());
+    points->Update();
+    EXPECT_EQ(points->GetOutput()->GetNumberOfPoints(), 2) << "a minimum and a maximum are left";
+    EXPECT_EQ(input->GetPointData()->GetScalars()->GetName(), nullptr);
+  }
+}
+
+TEST_F(Inputs, WhatVTKSaysOfArraysTravels) {
+  vtkNew<vtkDoubleArray> vectors, notes;
+  vectors->SetName("vectors");
+  vectors->SetNumberOfComponents(3);
+  vectors->SetNumberOfTuples(grid_->GetNumberOfPoints());
+  vectors->Fill(1);
+  vectors->SetComponentName(2, "up");
+  notes->SetName("notes");
+  notes->InsertNextValue(7);
+  vtkNew<vtkStructuredGrid> structured;
+  structured->SetDimensions(n, n, n);
+  structured->SetPoints(grid_->GetPoints());
+  structured->GetPointData()->ShallowCopy(grid_->GetPointData());
+  for (const vtkSmartPointer<vtkDataSet>& input :
+       {vtkSmartPointer<vtkDataSet>(grid_.Get()), vtkSmartPointer<vtkDataSet>(structured.Get()),
+        vtkSmartPointer<vtkDataSet>(image_of(dataset_, n).Get()),
+        vtkSmartPointer<vtkDataSet>(rectilinear_of({0, 1, 2, 3, 4}).Get())}) {
+    SCOPED_TRACE(input->GetClassName());
+    input->GetPointData()->SetVectors(vectors);
+    input->GetFieldData()->AddArray(notes);
+    vtkNew<vtkGaleSimplifiedField> simplified;
+    vtkNew<vtkGaleCriticalPoints> points;
+    simplified->SetInputData(input);
+    points->SetInputConnection(simplified->GetOutputPort());
+    points->Update();
+    vtkPointData* const found = simplified->GetOutput()->GetPointData();
+    ASSERT_NE(found->GetScalars(), nullptr);
+    EXPECT_STREQ(found->GetScalars()->GetName(), "field");
+    EXPECT_EQ(found->GetVectors(), found->GetArray("vectors"));
+    for (vtkPointData* const arrays : {found, points->GetOutput()->GetPointData()})
+      EXPECT_STREQ(arrays->GetArray("vectors")->GetComponentName(2), "up");
+    ASSERT_NE(simplified->GetOutput()->GetFieldData()->GetArray("notes"), nullptr);
+    EXPECT_EQ(simplified->GetOutput()->GetFieldData()->GetArray("notes")->GetTuple1(0), 7);
   }
 }
 

@@ -61,6 +61,11 @@ TEST_F(CriticalPointsFilter, ReadsCellsOf32Bits) {
 
 TEST_F(CriticalPointsFilter, SplitsImages) { expect_all(image_of(dataset_, n)); }
 
+TEST_F(CriticalPointsFilter, TakesNoMoreThreadsThanTheSystemStarts) {
+  filter_->SetNumberOfThreads(VTK_INT_MAX);
+  EXPECT_EQ(filter_->GetNumberOfThreads(), 1024);
+}
+
 TEST_F(CriticalPointsFilter, ResultsDependOnNoThreadsAndNoSegments) {
   for (const int threads : {1, 3}) {
     filter_->SetNumberOfThreads(threads);
@@ -139,7 +144,8 @@ TEST_F(CriticalPointsFilter, OrdersByTheArrayBesideTheField) {
   for (vtkIdType k = 0; k < grid_->GetNumberOfPoints(); ++k) order->InsertNextValue(static_cast<float>(k));
   grid_->GetPointData()->AddArray(order);
   filter_->SetInputData(grid_);
-  filter_->Update();
+  const std::string warning = warning_of(*filter_);
+  EXPECT_NE(warning.find("'field_Order' orders the vertices, though it contradicts 'field'"), std::string::npos);
   EXPECT_EQ(filter_->GetOutput()->GetNumberOfPoints(), 2);  // a grid's first point and its last one
 }
 

@@ -116,6 +116,17 @@ std::string error_of(vtkAlgorithm& filter, const std::function<void()>& update) 
   return error.empty() ? "no error" : error;
 }
 
+std::string warning_of(vtkAlgorithm& filter) {
+  std::string warning;
+  const auto watch = vtkSmartPointer<vtkCallbackCommand>::New();
+  watch->SetCallback(keep_error);
+  watch->SetClientData(&warning);
+  const auto tag = filter.AddObserver(vtkCommand::WarningEvent, watch);
+  filter.Update();
+  filter.RemoveObserver(tag);
+  return warning;
+}
+
 std::string content_of(vtkDataObject* data) {
   const auto writer = vtkSmartPointer<vtkGenericDataObjectWriter>::New();
   writer->WriteToOutputStringOn();

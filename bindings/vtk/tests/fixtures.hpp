@@ -40,6 +40,9 @@ std::string error_of(vtkAlgorithm& filter);
 /// What the filter says where `update` makes it work; "no error" where it doesn't fail.
 std::string error_of(vtkAlgorithm& filter, const std::function<void()>& update);
 
+/// What the filter warns of; "" for nothing.
+std::string warning_of(vtkAlgorithm& filter);
+
 /// A text with all that is in a data object.
 std::string content_of(vtkDataObject* data);
 

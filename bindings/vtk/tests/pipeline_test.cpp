@@ -6,8 +6,10 @@
 #include <vtkGaleCriticalPoints.h>
 #include <vtkGaleMorseSmaleComplex.h>
 #include <vtkGaleSegmentation.h>
+#include <vtkInformation.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
 
 #include <gale/mesh/segmentation.hpp>
 
@@ -76,6 +78,21 @@ TEST_F(Filters, RefuseToGiveAPieceOfAMesh) {
     EXPECT_NE(error.find("asked for piece 1 of 4: the whole mesh is needed, in one process"), std::string::npos)
         << error;
     EXPECT_EQ(error_of(*filter, [&] { filter->UpdatePiece(0, 1, 0); }), "no error");
+  }
+}
+
+TEST_F(Filters, RefuseToGiveAPieceAtAnyPort) {
+  for (int port = 0; port < 4; ++port) {
+    vtkNew<vtkGaleMorseSmaleComplex> filter;
+    filter->SetInputData(grid_);
+    const std::string error = error_of(*filter, [&] {
+      filter->UpdateInformation();
+      vtkInformation* const output = filter->GetOutputInformation(port);
+      output->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES(), 4);
+      output->Set(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER(), 1);
+      filter->Update(port);
+    });
+    EXPECT_NE(error.find("asked for piece 1 of 4"), std::string::npos) << port << ": " << error;
   }
 }
 

@@ -4,6 +4,8 @@ import xml.etree.ElementTree
 from pathlib import Path
 
 from galevtk import vtkFiltersGale
+from vtkmodules.vtkCommonCore import VTK_IMAGE_STENCIL_DATA
+from vtkmodules.vtkCommonDataModel import vtkDataObjectTypes
 
 PLUGIN = Path(__file__).parents[2] / "paraview" / "plugin"
 HEADERS = (Path(__file__).parents[1] / "filters").glob("vtkGale*.h")
@@ -40,6 +42,33 @@ class Filters(unittest.TestCase):
             for key in settings:
                 self.assertEqual(float(properties[key].get("default_values")), float(getattr(made, f"Get{key}")()), f"{name}: {key}")
                 self.assertEqual(properties[key].get("name"), key)
+
+    def test_ranges_are_the_classes(self):
+        compared = 0
+        for name in CLASSES:
+            made = getattr(vtkFiltersGale, name)()
+            for key, element in self.properties(name).items():
+                for domain in element.findall("IntRangeDomain"):
+                    ends = [getattr(made, f"Get{key}{end}Value")() for end in ("Min", "Max")]
+                    self.assertEqual([int(domain.get("min")), int(domain.get("max", 2**31 - 1))], ends, f"{name}: {key}")
+                    compared += 1
+        self.assertGreaterEqual(compared, 2 * len(CLASSES))
+
+    def test_inputs_are_what_the_filters_take(self):
+        types = [element.get("value") for element in self.base.iter("DataType")]
+        taken = set()
+        for number in range(VTK_IMAGE_STENCIL_DATA + 1):
+            made = vtkDataObjectTypes.NewDataObject(number)
+            if made is None or not made.IsA("vtkDataSet"):
+                continue
+            said = []
+            segments = vtkFiltersGale.vtkGaleSegmentation()
+            segments.AddObserver("ErrorEvent", lambda *_: said.append(1))
+            segments.SetInputData(made)
+            segments.Update()
+            self.assertEqual(not said, any(made.IsA(type_) for type_ in types), made.GetClassName())
+            taken.update([] if said else [made.GetClassName()])
+        self.assertLess({"vtkUnstructuredGrid", "vtkStructuredGrid", "vtkPolyData", "vtkImageData", "vtkRectilinearGrid"}, taken)
 
     def test_ports_have_names(self):
         for name in CLASSES:

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -18,11 +17,14 @@ namespace detail {
 
 namespace {
 
-/// What a threshold needs; throws gale::Error if it hasn't got it.
-std::optional<ThresholdOfTree> threshold_of(const MergeTreeOptions& options) {
+/// What a threshold needs; throws gale::Error if it hasn't got it. Collective.
+std::optional<ThresholdOfTree> threshold_of(const MergeTreeOptions& options, const Ranks& ranks) {
+  together(ranks, [&] {
+    require_threshold(options.threshold);
+    if (options.threshold != 0 && !options.value)
+      throw Error("a tree simplified by persistence needs the field's values");
+  });
   if (options.threshold == 0) return std::nullopt;
-  if (std::isnan(options.threshold)) throw Error("the threshold of a tree is no number");
-  if (!options.value) throw Error("a tree simplified by persistence needs the field's values");
   return ThresholdOfTree{options.threshold,
                          [&options](Id vertex) { return detail::known_value(options.value(vertex), vertex); }};
 }
@@ -38,7 +40,7 @@ std::vector<MergeTree> trees_of(const Space& space, const VertexOrder& order, Ex
 template <class Make>
 std::vector<MergeTree> find_trees(const VertexOrder& order, std::vector<Tree> trees, const MergeTreeOptions& options,
                                   Computed* computed, const Make& make) {
-  const auto threshold = threshold_of(options);
+  const auto threshold = threshold_of(options, order.mesh().exchange().ranks());
   const bool simplifies = threshold && trees.back() == Tree::contour;
   if (simplifies) trees.pop_back();
   std::vector<MergeTree> found;

@@ -188,15 +188,16 @@ std::array<Id, 4> MorseSmaleComplex::own_counts() const {
 MorseSmaleComplex find_morse_smale_complex(const DiscreteGradient& gradient, const MorseSmaleParts& parts,
                                            const ComputeOptions& options, Computed* computed) {
   detail::Computing computing(gradient.mesh(), options, computed);
-  return find_parts(gradient, parts, std::max(options.threads, 1),
+  return find_parts(gradient, parts, options.threads,
                     [&]() -> Structure& { return computing.structure(morse_smale_relations); });
 }
 
 MorseSmaleComplex find_morse_smale_complex(Structure& structure, const DiscreteGradient& gradient,
                                            const MorseSmaleParts& parts, const SweepOptions& options) {
   detail::require_same_mesh("the gradient", gradient.mesh(), structure.mesh());
+  detail::together(gradient.mesh().exchange().ranks(), [&] { detail::require_threads(options.threads); });
   const ThreadLimit limit(options.threads);
-  return find_parts(gradient, parts, std::max(options.threads, 1), [&]() -> Structure& { return structure; });
+  return find_parts(gradient, parts, options.threads, [&]() -> Structure& { return structure; });
 }
 
 }  // namespace gale

@@ -27,6 +27,11 @@ inline void require_whole_mesh(const std::string& what, const Mesh& mesh, const 
                     " ranks" + instead);
 }
 
+/// Throws gale::Error for a threshold of persistence that is none.
+inline void require_threshold(double threshold) {
+  if (!(threshold >= 0)) throw Error("the persistence " + std::to_string(threshold) + " is not 0 or more");
+}
+
 /// What is wrong with a vertex whose value is NaN.
 inline std::string without_value(GlobalId vertex) {
   return "vertex " + std::to_string(vertex) + " has no field value: it is NaN";

@@ -204,6 +204,9 @@ OrderKeys order_keys(const Mesh& mesh, const FieldValues<Value, Memory>& values)
 }
 
 OrderKeys keys_of_places(const Mesh& mesh, const FieldValues<Id, HostMemory>& places) {
+  if (static_cast<Offset>(places.extent(0)) != Offset(mesh.vertices()))
+    throw Error("there are " + std::to_string(places.extent(0)) + " places, the mesh has " +
+                std::to_string(mesh.vertices()) + " vertices");
   return keys_of_all(mesh, raw(places));
 }
 

@@ -84,6 +84,7 @@ class PairsOnRanks {
     meanwhile([&] { sorted = tried(sort_own); }, [&] { ends = ends_on_ranks(gradient_, *places_); });
     std::vector<std::int64_t> bytes(ranks_.size(), 0);
     together(ranks_, [&] {
+      if (sorted.was_stopped) throw Stopped();
       if (sorted.has_failed) throw Error(sorted.failure);
       highest = highest_to_send(gradient_);  // by a kernel: not beside others
       for (const auto& some : own) bytes[0] += static_cast<std::int64_t>(some.size() * sizeof(SentSimplex));
@@ -207,9 +208,10 @@ GatheredPairs gather_persistence_pairs(const DiscreteGradient& gradient, const S
     return GatheredPairs{whole.mesh(), highest_vertices(whole), find_persistence_pairs(whole, options)};
   };
   if (ranks.size() == 1) return find(gradient);
+  detail::together(ranks, [&] { detail::require_threads(options.threads); });
   const ThreadLimit limit(options.threads);
   if (ranks.sum(detail::has_forks(gradient) ? 1 : 0) == 0)
-    return detail::PairsOnRanks(gradient, std::max(options.threads, 1), most_bytes).find();
+    return detail::PairsOnRanks(gradient, options.threads, most_bytes).find();
   const DiscreteGradient gathered = gather_gradient(gradient, most_bytes);
   std::optional<GatheredPairs> found;
   detail::together(ranks, [&] { found = find(gathered); });

@@ -135,13 +135,14 @@ PersistencePairs pairs_of(const DiscreteGradient& gradient, const CriticalPlaces
 
 PersistencePairs find_persistence_pairs(const DiscreteGradient& gradient, const SweepOptions& options) {
   detail::require_whole_mesh("persistence pairs", gradient.mesh(), ", which gather_gradient() brings together");
+  detail::require_threads(options.threads);
   const ThreadLimit limit(options.threads);
   gradient.store().bring_pairs_to_host();
   const detail::CriticalPlaces places(gradient.critical());
   const bool forks = detail::has_forks(gradient);
   detail::ExtremumEnds ends{ends_of_edges(gradient, places), {}};
   if (!forks) ends.of_facets = ends_of_facets(gradient, places);
-  return pairs_of(gradient, places, ends, forks, detail::WantedPairs::all, std::max(options.threads, 1));
+  return pairs_of(gradient, places, ends, forks, detail::WantedPairs::all, options.threads);
 }
 
 }  // namespace gale

@@ -6,6 +6,7 @@
 
 #include <gale/algorithms/excerpt/gradient_excerpt.hpp>
 #include <gale/algorithms/morse_smale/parts.hpp>
+#include <gale/algorithms/order/require.hpp>
 #include <gale/algorithms/persistence/cancellations.hpp>
 #include <gale/algorithms/simplify.hpp>
 #include <gale/base/error.hpp>
@@ -177,11 +178,16 @@ MorseSmaleComplex simplify_on_ranks(const MorseSmaleComplex& complex, const std:
 
 MorseSmaleComplex simplify(const MorseSmaleComplex& complex, const std::function<double(Id)>& value, double threshold,
                            const SimplifyOptions& options) {
-  if (complex.gradient.mesh().exchange().ranks().size() > 1)
-    return simplify_on_ranks(complex, value, threshold, options);
+  const Ranks& ranks = complex.gradient.mesh().exchange().ranks();
+  detail::together(ranks, [&] {
+    detail::require_threshold(threshold);
+    detail::require_threads(options.threads);
+    if (!value) throw Error("a complex simplified by persistence needs the field's values");
+  });
+  if (ranks.size() > 1) return simplify_on_ranks(complex, value, threshold, options);
   require_whole(complex, options.extrema_only);
   const ThreadLimit limit(options.threads);
-  const int threads = std::max(options.threads, 1);
+  const int threads = options.threads;
   const DiscreteGradient& gradient = complex.gradient;
   const MorseSmaleParts& parts = complex.parts;
   const bool want_ascending_walls = !complex.ascending_walls.walls.sources.empty();

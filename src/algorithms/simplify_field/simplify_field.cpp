@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 
@@ -178,7 +177,10 @@ class GivenExtrema {
 
 SimplifiedField simplify_field(const VertexOrder& order, const std::function<double(Id)>& value, double threshold,
                                const ComputeOptions& options, Computed* computed) {
-  if (std::isnan(threshold)) throw Error("the threshold of a simplified field is no number");
+  detail::together(order.mesh().exchange().ranks(), [&] {
+    detail::require_threshold(threshold);
+    if (!value) throw Error("a field simplified by persistence needs its values");
+  });
   if (order.mesh().exchange().ranks().size() > 1)
     return detail::simplified_on_ranks(order, value, threshold, options, computed);
   const OtherIds input = order.mesh().vertices_in_input();

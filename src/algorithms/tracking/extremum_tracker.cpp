@@ -131,6 +131,12 @@ void ExtremumTracker::add(double time, const DiscreteGradient& gradient, std::fu
   if (latest_ && !(latest_->mesh == gradient.mesh()))
     throw Error("step " + std::to_string(number) +
                 " has another mesh than the steps before it: tracks are of one mesh");
+  if (!(time == time) || !(tracks_.times.empty() || tracks_.times.back() < time))
+    throw Error("the time of step " + std::to_string(number) + " is " + std::to_string(time) +
+                ", which isn't after the one before it");
+  detail::require_threshold(threshold);
+  detail::require_threads(threads);
+  if (!value) throw Error("tracks need the field's values");
   const ThreadLimit limit(threads);
   auto step =
       std::make_unique<Step>(Step{gradient.mesh(),
@@ -138,7 +144,7 @@ void ExtremumTracker::add(double time, const DiscreteGradient& gradient, std::fu
                                   threshold,
                                   {detail::descending_manifolds(gradient), detail::ascending_manifolds(gradient)}});
   for (int kind = 0; kind < 2; ++kind) step->of_vertex[kind] = step->manifolds[kind].in<HostMemory>().data();
-  find_extrema(gradient, std::max(threads, 1), step->value, threshold, step->tracked, step->extrema);
+  find_extrema(gradient, threads, step->value, threshold, step->tracked, step->extrema);
   link(number, *step);
   tracks_.times.push_back(time);
   tracks_.step_begin.push_back(static_cast<Id>(tracks_.extrema.size()));

@@ -1,3 +1,6 @@
+#include <locale.h>
+#include <stdlib.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cstring>
@@ -24,6 +27,11 @@ std::string printable(const std::string& text) {
       line.begin(), line.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
   if (line.size() > longest) line = line.substr(0, longest) + "...";
   return line;
+}
+
+double zero_or_infinity(std::string_view word) {
+  static const locale_t of_c = newlocale(LC_ALL_MASK, "C", nullptr);
+  return strtod_l(std::string(word).c_str(), nullptr, of_c);
 }
 
 bool TextReader::refill() {

@@ -81,6 +81,9 @@ class TextReader : public ByteSource {
   std::size_t at_ = 0, end_ = 0;
 };
 
+/// What a number becomes that no double holds.
+double zero_or_infinity(std::string_view word);
+
 /// The number that `word` writes, which may have a sign, or be nan or inf if T is of floating point. False unless all
 /// of it is a number that T holds; one too small for T is 0, one too large an infinity.
 template <class T>
@@ -90,7 +93,7 @@ bool parse(std::string_view word, T& value) {
   const auto [stop, failure] = std::from_chars(word.data(), end, value);
   if (stop != end || word.empty()) return false;
   if (std::is_floating_point_v<T> && failure == std::errc::result_out_of_range) {
-    value = static_cast<T>(std::strtod(std::string(word).c_str(), nullptr));
+    value = static_cast<T>(zero_or_infinity(word));
     return true;
   }
   return failure == std::errc();

@@ -53,9 +53,8 @@ std::vector<Step> steps_of_pvd(const InputFile& input, const ReadOptions& option
   Steps steps(input, options);
   for (const XmlElement* const one : file.root.require("Collection").all("DataSet")) {
     const std::string text = one->attribute("timestep", "0");
-    char* end = nullptr;
-    const double time = std::strtod(text.c_str(), &end);
-    if (text.empty() || *end != '\0') damaged("its timestep '", text, "' is no number");
+    double time = 0;
+    if (!detail::parse(detail::trimmed(text), time)) damaged("its timestep '", text, "' is no number");
     steps.add(time, one->attribute("file"));
   }
   return steps.take();

@@ -1,7 +1,8 @@
+#include <charconv>
 #include <cstdint>
-#include <cstdio>
 
 #include <gale/base/error.hpp>
+#include <gale/io/bytes/text.hpp>
 #include <gale/io/bytes/values.hpp>
 #include <gale/io/write.hpp>
 
@@ -46,20 +47,58 @@ std::string to_npy(const PointArray& column) {
       column.values);
 }
 
+/// A name as a line of comma-separated values has it.
+std::string quoted(const std::string& name) {
+  if (name.find_first_of(",\"\r\n") == std::string::npos) return name;
+  std::string text = "\"";
+  for (const char c : name) text += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return text + '"';
+}
+
+/// Adds a number such that it is read back as it is, whatever the program's locale.
+template <class T>
+void add_number(T value, std::string& text) {
+  char digits[32];
+  constexpr int enough = 17;  // for any double
+  const auto end = [&] {
+    if constexpr (std::is_floating_point_v<T>) {
+      return std::to_chars(digits, digits + sizeof digits, static_cast<double>(value), std::chars_format::general,
+                           enough);
+    } else {
+      return std::to_chars(digits, digits + sizeof digits, value);
+    }
+  }();
+  text.append(digits, end.ptr);
+}
+
 }  // namespace
 
 std::string to_csv(const std::vector<PointArray>& columns) {
   std::string csv;
-  for (const PointArray& column : columns) csv += (csv.empty() ? "" : ",") + column.name;
-  for (std::size_t row = 0; !columns.empty() && row < point_count(columns[0]); ++row) {
-    for (const PointArray& column : columns) {
-      char text[32];
-      const auto number = [row](const auto& values) { return static_cast<double>(values[row]); };
-      std::snprintf(text, sizeof(text), "%.17g", std::visit(number, column.values));
-      csv += (&column == &columns[0] ? '\n' : ',') + std::string(text);
+  const auto separate = [&csv] {
+    if (!csv.empty() && csv.back() != '\n') csv += ',';
+  };
+  const std::size_t rows = columns.empty() ? 0 : point_count(columns.front());
+  for (const PointArray& column : columns) {
+    if (point_count(column) != rows)
+      detail::refuse("the column '", column.name, "' has ", point_count(column), " rows, '", columns.front().name, "' ",
+                     rows);
+    for (int k = 0; k < column.components; ++k) {
+      separate();
+      csv += quoted(column.components == 1 ? column.name : column.name + "_" + std::to_string(k));
     }
   }
-  return csv + '\n';
+  csv += '\n';
+  for (std::size_t row = 0; row < rows; ++row) {
+    for (const PointArray& column : columns) {
+      for (int k = 0; k < column.components; ++k) {
+        separate();
+        std::visit([&](const auto& values) { add_number(values[row * column.components + k], csv); }, column.values);
+      }
+    }
+    csv += '\n';
+  }
+  return csv;
 }
 
 std::string to_npz(const std::vector<PointArray>& columns) {

@@ -193,6 +193,7 @@ SplitCells<Corners, Memory> split_into(const Cells<Index, Memory>& cells, Offset
   const CellRules& rules = cell_rules(Corners);
   const Offset count = cells.types.extent(0);
   SplitCells<Corners, Memory> result;
+  require_ids("points", points);
   if (ids.extent(0) != 0 && static_cast<Offset>(ids.extent(0)) != points)
     throw Error("there are " + std::to_string(ids.extent(0)) + " ids for " + std::to_string(points) + " points");
   require_offsets(cells);

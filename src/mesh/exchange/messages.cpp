@@ -56,7 +56,7 @@ ReceivedBytes exchange_pieces(const Ranks& ranks, const char* label,
     received.greatest = std::max(received.greatest, theirs.greatest);
     has_one_failed = has_one_failed || theirs.greatest < 0;
   }
-  if (has_one_failed) fail_together(ranks, outcome.has_failed, outcome.failure);
+  if (has_one_failed) fail_together(ranks, outcome);
   if (received.greatest <= block - head) {
     ranks.note_sent(std::count_if(counts.begin(), counts.end(), [](std::int64_t count) { return count > 0; }),
                     std::accumulate(counts.begin(), counts.end(), std::int64_t(0)));
