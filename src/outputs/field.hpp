@@ -62,6 +62,11 @@ GALE_EXPORT const io::PointArray& order_values(const io::Dataset& dataset, const
 /// A note for a field NAME whose NAME_Order has a vertex right after one with a higher value.
 GALE_EXPORT std::string contradiction(const std::string& field, GlobalId lower, GlobalId before);
 
+/// A note if an array that orders the vertices of a mesh, which lies on several ranks, contradicts the field; else
+/// empty. Both have values by input id of the part. Throws SharedError if the order isn't a permutation of 0 to
+/// vertices-1. Collective.
+GALE_EXPORT std::string note_of_order(const Mesh& mesh, const io::PointArray& order, const io::PointArray& field);
+
 /// The order of the field's values; or, where the dataset has an array NAME_Order of one component beside the field
 /// NAME, that order, whatever the values: `note` is told of the first vertex that contradicts it. Throws gale::Error,
 /// with array and vertex, if NAME_Order isn't a permutation of 0 to vertices-1, and as `VertexOrder` does.

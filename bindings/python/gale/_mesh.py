@@ -34,6 +34,8 @@ _PARAMETERS = {
     "mesh": "a meshio.Mesh",
     "name": "what the field is called among the arrays of the result",
     "offsets": "(cells + 1,) integers: where each cell begins in `connectivity`, and the end",
+    "order": "(vertices,) a permutation of 0 to vertices - 1: the place of each point in an order to go by instead of that of the "
+             "values, such as that of a SimplifiedField",
     "outside_files": "whether headers may name data files outside of their own folder",
     "steps": "(time, Mesh, field) of each step, in the order of time; of one Mesh",
     "path": "a file, by its extension, or a synthetic mesh: grid:N, plane:N",
@@ -396,46 +398,47 @@ class Mesh:
 
     @_documented()
     def critical_points(self, field: Any, name: str = "field", threads: int = 0,
-                        progress: Progress = None) -> CriticalPoints:
+                        progress: Progress = None, order: Any = None) -> CriticalPoints:
         """The critical points of the piecewise linear field, by ascending vertex: CriticalPoints with the arrays `name`,
         CriticalType (int8: 0 minimum, 1 and 2 saddles, 3 maximum, 4 degenerate), IsOnBoundary (bool) and
         ttkVertexScalarField (int32), the vertex."""
-        found = self._analyse("critical-points", field, name, threads, progress)
+        found = self._analyse("critical-points", field, name, threads, progress, order=order)
         return CriticalPoints(*found["critical_points"])
 
     @_documented()
     def critical_simplices(self, field: Any, name: str = "field", threads: int = 0,
-                           progress: Progress = None) -> CriticalPoints:
+                           progress: Progress = None, order: Any = None) -> CriticalPoints:
         """The simplices that the discrete gradient pairs with no other: CriticalPoints with the arrays `name`,
         CellDimension (int8: 0 minimum to 3 maximum), CellId (int32), IsOnBoundary (bool) and ttkVertexScalarField (int32),
         the highest vertex."""
-        found = self._analyse("discrete-gradient", field, name, threads, progress)
+        found = self._analyse("discrete-gradient", field, name, threads, progress, order=order)
         return CriticalPoints(*found["critical_simplices"])
 
     @_documented()
     def discrete_gradient(self, field: Any, name: str = "field", threads: int = 0,
-                          progress: Progress = None) -> DiscreteGradient:
+                          progress: Progress = None, order: Any = None) -> DiscreteGradient:
         """The discrete gradient: its critical simplices, as `critical_simplices` has them, and its arrows. Large: some 13
         arrows a vertex."""
-        found = self._analyse("discrete-gradient", field, name, threads, progress, {"arrows": True})
+        found = self._analyse("discrete-gradient", field, name, threads, progress, {"arrows": True}, order=order)
         return DiscreteGradient(CriticalPoints(*found["critical_simplices"]), CriticalPoints(*found["arrows"]))
 
     @_documented()
     def persistence_diagram(self, field: Any, persistence: Persistence = 0, name: str = "field", threads: int = 0,
-                            progress: Progress = None) -> Diagram:
+                            progress: Progress = None, order: Any = None) -> Diagram:
         """The persistent homology of the field, as a Diagram: pairs whose persistence is at least `persistence`, a
         difference of values or, as in "3%", a part of the field's range; and the classes that never end."""
         thresholds = _persistence(persistence)
-        return Diagram(**self._analyse("persistence-diagram", field, name, threads, progress, {}, thresholds)["diagram"])
+        found = self._analyse("persistence-diagram", field, name, threads, progress, {}, thresholds, order=order)
+        return Diagram(**found["diagram"])
 
     @_documented()
     def morse_smale(self, field: Any, persistence: Optional[Persistence] = None, extrema_only: bool = False,
                     name: str = "field", threads: int = 0, progress: Progress = None,
-                    separatrices2: bool = False) -> MorseSmaleComplex:
+                    separatrices2: bool = False, order: Any = None) -> MorseSmaleComplex:
         """The MorseSmaleComplex of the field, simplified below `persistence` (as in persistence_diagram) if that is
         given; of extrema alone with `extrema_only`. With the walls of saddles, which are large, if `separatrices2`."""
         flags = {"extrema_only": extrema_only, "separatrices2": separatrices2}
-        found = self._analyse("morse-smale", field, name, threads, progress, flags, _persistence(persistence))
+        found = self._analyse("morse-smale", field, name, threads, progress, flags, _persistence(persistence), order=order)
         walls = Polygons(*found["separatrices2"]) if separatrices2 else None
         complex = MorseSmaleComplex(CriticalPoints(*found["critical_points"]), Lines(*found["separatrices1"]),
                                     found["manifolds"], found["kept_below"], walls)
@@ -444,35 +447,42 @@ class Mesh:
 
     @_documented()
     def merge_tree(self, field: Any, type: str = "contour", persistence: Optional[Persistence] = None,
-                   arc_samples: int = 0, name: str = "field", threads: int = 0, progress: Progress = None) -> MergeTree:
+                   arc_samples: int = 0, name: str = "field", threads: int = 0, progress: Progress = None, order: Any = None) -> MergeTree:
         """The MergeTree of the field: of `type` "contour", "join" or "split"; without branches below `persistence` (as in
         persistence_diagram) if that is given. Arcs are drawn over at most `arc_samples` points between their ends,
         barycentres of their vertices."""
         found = self._analyse("merge-tree", field, name, threads, progress, {}, _persistence(persistence),
-                              {"type": type}, {"arc_samples": arc_samples})
+                              {"type": type}, {"arc_samples": arc_samples}, order)
         return MergeTree(CriticalPoints(*found["nodes"]), Lines(*found["arcs"]), found["segmentation"])
 
     @_documented()
     def simplify_field(self, field: Any, persistence: Optional[Persistence] = None, name: str = "field",
-                       threads: int = 0, progress: Progress = None) -> SimplifiedField:
+                       threads: int = 0, progress: Progress = None, order: Any = None) -> SimplifiedField:
         """The field without the minima and maxima whose persistence is below `persistence` (as in persistence_diagram), as
         a SimplifiedField."""
-        found = self._analyse("simplify-field", field, name, threads, progress, {}, _persistence(persistence))
+        found = self._analyse("simplify-field", field, name, threads, progress, {}, _persistence(persistence), order=order)
         values, order = found["field"].values()
         return SimplifiedField(values, order, found["minima"], found["maxima"], found["kept_below"])
 
     def _analyse(self, analysis: str, field: Any, name: str, threads: int, progress: Progress,
                  flags: Optional[Dict[str, bool]] = None, thresholds: Optional[Dict[str, Tuple[float, bool]]] = None,
-                 choices: Optional[Dict[str, str]] = None, numbers: Optional[Dict[str, int]] = None) -> Dict[str, Any]:
+                 choices: Optional[Dict[str, str]] = None, numbers: Optional[Dict[str, int]] = None,
+                 order: Any = None) -> Dict[str, Any]:
         """What an analysis finds, by the names of its results; with options that aren't given at their defaults."""
         given = ({key: _flag(key, value) for key, value in (flags or {}).items()}, thresholds or {},
                  {key: _text(key, value) for key, value in (choices or {}).items()},
                  {key: _whole(key, value) for key, value in (numbers or {}).items()})
         with told(progress, analysis) as tell:
-            return self._found(analysis, _arrays.field(field), _text("name", name), given, _whole("threads", threads), tell)
+            found = self._found(analysis, _arrays.field(field), _text("name", name), given, _whole("threads", threads), tell,
+                                None if order is None else _arrays.field(order))
+        note = found.pop("note")
+        if note:
+            warnings.warn(note, stacklevel=3)
+        return found
 
     def _found(self, *arguments: Any) -> Dict[str, Any]:
-        """What an analysis finds with (analysis, field, name, options, threads, progress), which are of the right types."""
+        """What an analysis finds with (analysis, field, name, options, threads, progress, order), which are of the right
+        types."""
         found: Dict[str, Any] = self._mesh.analyse(*arguments)
         return found
 

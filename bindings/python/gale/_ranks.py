@@ -110,11 +110,12 @@ class DistributedMesh(Mesh):
     def _relation(self, name: str, threads: int, progress: Any) -> Tuple[np.ndarray, np.ndarray, int]:
         self._refuse("relations")
 
-    def _found(self, analysis: Any, values: Any, name: Any, given: Any, threads: Any, tell: Any) -> Dict[str, Any]:
-        self._mesh.check(analysis, values, name, given, threads, tell)
+    def _found(self, *arguments: Any) -> Dict[str, Any]:
+        self._mesh.check(*arguments)
         self._has_begun = True
-        _agree(self._comm, None, f"{analysis} of {(name, *given)}")
-        return super()._found(analysis, values, name, given, threads, tell)
+        analysis, _, name, given, _, _, order = arguments
+        _agree(self._comm, None, f"{analysis} of {(name, *given)}" + (" with an order" if order is not None else ""))
+        return super()._found(*arguments)
 
     def to_pyvista(self) -> Any:
         self._refuse("grid of PyVista's")

@@ -464,10 +464,9 @@ class SimplifiedField(_Parts):
     """A field without extrema of little persistence.
 
     values: (vertices,), of the field's type. order: (vertices,) int32, the place of each vertex in an order along which
-    they never fall; as the array NAME_Order it orders the vertices where the command, VTK's filters and ParaView read the
-    field NAME. Methods of gale.Mesh take values alone: where simplifying has made some equal, the vertices' numbers order
-    these, and extrema that were removed may be there again. minima,
-    maxima: how many are left. kept_below: how many below the threshold could not be removed."""
+    they never fall: methods of gale.Mesh take it as `order`, else vertices' numbers order those that simplifying has made
+    equal, and extrema that were removed may be there again; as the array NAME_Order it orders the vertices where the
+    command, VTK's filters and ParaView read the field NAME. minima, maxima: how many are left. kept_below: how many below the threshold could not be removed."""
 
     values: np.ndarray
     order: np.ndarray

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include <gale/outputs/field.hpp>
+
 #include "job.hpp"
 
 namespace gale::python {
@@ -38,8 +40,9 @@ nb::int_ numpy_of(Id count) { return nb::int_(count); }
 
 }  // namespace
 
-nb::dict results_of(std::map<std::string, outputs::Outcome> found) {
+nb::dict results_of(std::map<std::string, outputs::Outcome> found, const std::string& note) {
   nb::dict results;
+  results["note"] = text_of(note);
   for (auto& [result, outcome] : found)
     results[result.c_str()] = std::visit([](auto& one) -> nb::object { return numpy_of(std::move(one)); }, outcome);
   return results;
@@ -53,23 +56,31 @@ outputs::Settings settings_of(const GivenOptions& given) {
 }
 
 nb::dict PyMesh::analyse(const std::string& analysis, Array1 values, const std::string& name, const GivenOptions& given,
-                         int threads, const nb::object& progress) const {
+                         int threads, const nb::object& progress, const std::optional<Array1>& given_order) const {
   Job job(progress);
   const ComputeOptions options = job.sweep_options(threads);
   const outputs::Settings settings = settings_of(given);
+  std::string note;
   auto found = job.run([&] {
     const ThreadLimit limit(options.threads);
     auto copy = in_background([&] { return field_of(values, name); });
-    const VertexOrder order = order_of(mesh(), values);
     io::Dataset dataset = with({name, 1, {}});
     io::PointArray& field = dataset.arrays.front();
     const auto await = [&] {
       if (copy.valid()) field = copy.get();
     };
+    const auto find_order = [&] {
+      if (!given_order) return order_of(mesh(), values);
+      await();
+      io::Dataset beside;
+      beside.arrays.push_back(field_of(*given_order, name + "_Order", "the order"));
+      return outputs::order_of(mesh(), beside, field, &note);
+    };
+    const VertexOrder order = find_order();
     return outputs::analysis_named(analysis).run(
         {dataset, field, order, [&](const char*, double, double) { return options; }, await}, settings);
   });
-  return results_of(std::move(found));
+  return results_of(std::move(found), note);
 }
 
 }  // namespace gale::python

@@ -107,23 +107,24 @@ std::vector<T> copy_of(const Array1& values) {
   });
 }
 
-/// What `use(one)` returns, where `one` is of the type of the field's values.
+/// What `use(one)` returns, where `one` is of the type of the field's values. `what` they are in errors.
 template <class Use>
-auto with_type_of_field(const Array1& values, const Use& use) {
-  if (values.ndim() != 1) throw Error("the field has " + std::to_string(values.ndim()) + " dimensions, not 1");
+auto with_type_of_field(const Array1& values, const std::string& what, const Use& use) {
+  if (values.ndim() != 1) throw Error(what + " has " + std::to_string(values.ndim()) + " dimensions, not 1");
   return with_type<std::int8_t, std::uint8_t, std::int16_t, std::uint16_t, std::int32_t, std::uint32_t, std::int64_t,
-                   std::uint64_t, float, double>(values, "the field has values of a type that isn't read", use);
+                   std::uint64_t, float, double>(values, (what + " has values of a type that isn't read").c_str(), use);
 }
 
 }  // namespace
 
-io::PointArray field_of(const Array1& values, const std::string& name) {
-  return {name, 1,
-          with_type_of_field(values, [&](auto one) { return io::PointArray::Values(copy_of<decltype(one)>(values)); })};
+io::PointArray field_of(const Array1& values, const std::string& name, const std::string& what) {
+  return {name, 1, with_type_of_field(values, what, [&](auto one) {
+            return io::PointArray::Values(copy_of<decltype(one)>(values));
+          })};
 }
 
 VertexOrder order_of(const Mesh& mesh, const Array1& values) {
-  return with_type_of_field(values, [&](auto one) {
+  return with_type_of_field(values, "the field", [&](auto one) {
     return with_view<const decltype(one)*>(values, "the field",
                                            [&](const auto& view) { return VertexOrder(mesh, view); });
   });

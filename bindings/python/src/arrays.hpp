@@ -129,9 +129,9 @@ std::vector<T> vector_of(const T* values, std::size_t count) {
   return copy;
 }
 
-/// A copy of the field on the host, as the outputs take it. Throws gale::Error unless it has one dimension, and numbers
-/// of up to 8 bytes. To be called within a `Job`, since it may be on a device.
-io::PointArray field_of(const Array1& values, const std::string& name);
+/// A copy of the field on the host, as the outputs take it. Throws gale::Error, which says `what` it is, unless it has
+/// one dimension, and numbers of up to 8 bytes. To be called within a `Job`, since it may be on a device.
+io::PointArray field_of(const Array1& values, const std::string& name, const std::string& what = "the field");
 
 /// The order by the field, from where its values are, which must be as above; or from such a copy.
 VertexOrder order_of(const Mesh& mesh, const Array1& values);

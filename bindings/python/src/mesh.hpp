@@ -50,9 +50,10 @@ class PyMesh : public Kept {
   /// (where rows begin, their entries, how many simplices the entries are among)
   nb::tuple relation(const std::string& name, int threads, const nb::object& progress) const;
 
-  /// What an analysis of outputs/analyses.hpp finds, by the names of its results.
+  /// What an analysis of outputs/analyses.hpp finds, by the names of its results, and a "note" where `order`, the
+  /// places of vertices, contradicts the field.
   nb::dict analyse(const std::string& analysis, Array1 field, const std::string& name, const GivenOptions& given,
-                   int threads, const nb::object& progress) const;
+                   int threads, const nb::object& progress, const std::optional<Array1>& order) const;
 
   const Mesh& mesh() const;
 

@@ -71,7 +71,8 @@ NB_MODULE(_gale, module) {
       .def("points", &PyMesh::points)
       .def("cubes", &PyMesh::cubes)
       .def("relation", &PyMesh::relation, "name"_a, "threads"_a, "progress"_a.none())
-      .def("analyse", &PyMesh::analyse, "analysis"_a, "field"_a, "name"_a, "given"_a, "threads"_a, "progress"_a.none());
+      .def("analyse", &PyMesh::analyse, "analysis"_a, "field"_a, "name"_a, "given"_a, "threads"_a, "progress"_a.none(),
+           "order"_a.none());
 
   nb::class_<PyTracker>(module, "Tracker")
       .def(nb::init<>())

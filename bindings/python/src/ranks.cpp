@@ -15,6 +15,7 @@
 #include <gale/distributed/distributed_mesh.hpp>
 #include <gale/outputs/analyses.hpp>
 #include <gale/outputs/excerpt.hpp>
+#include <gale/outputs/field.hpp>
 
 #include "analyses.hpp"
 #include "arrays.hpp"
@@ -63,28 +64,31 @@ class PyDistributedMesh : public Kept {
   /// Throws what `analyse` would for arguments that are wrong by themselves, on this rank alone: others wait for none
   /// that fails before it sends anything.
   void check(const std::string& analysis, const Array1& values, const std::string& name, const GivenOptions& given,
-             int threads, const nb::object& progress) const {
+             int threads, const nb::object& progress, const std::optional<Array1>& order) const {
     mesh();
     outputs::analysis_named(analysis);
     field_of(values, name);
+    if (order) field_of(*order, name, "the order");
     settings_of(given);
     Job(progress).sweep_options(threads);
   }
 
   nb::dict analyse(const std::string& analysis, Array1 values, const std::string& name, const GivenOptions& given,
-                   int threads, const nb::object& progress) const {
+                   int threads, const nb::object& progress, const std::optional<Array1>& order) const {
     Job job(progress);
     const ComputeOptions options = job.sweep_options(threads);
     const outputs::Settings settings = settings_of(given);
-    if (analysis == "persistence-diagram") return diagram(job, values, name, settings, options);
+    if (analysis == "persistence-diagram") return diagram(job, values, name, order, settings, options);
+    std::string note;
     auto found = job.run([&] {
       const ThreadLimit limit(options.threads);
-      const Held held = bring(values, name);
+      const Held held = bring(values, name, order);
+      note = held.note;
       return outputs::analysis_named(analysis).run({held.dataset, held.dataset.arrays.front(), *held.order,
                                                     [&](const char*, double, double) { return options; }},
                                                    settings);
     });
-    return results_of(std::move(found));
+    return results_of(std::move(found), note);
   }
 
  private:
@@ -92,6 +96,7 @@ class PyDistributedMesh : public Kept {
   struct Held {
     io::Dataset dataset;
     std::optional<VertexOrder> order;
+    std::string note;  ///< on the first rank: of an order that contradicts the field
   };
 
   const DistributedMesh& mesh() const {
@@ -140,32 +145,51 @@ class PyDistributedMesh : public Kept {
     return DistributedMesh(*ranks_, *part, options);
   }
 
-  /// Collective.
-  Held bring(const Array1& values, const std::string& name) const {
+  /// What a caller has for each vertex that it handed over. Collective.
+  io::PointArray given_to_all(const Array1& values, const std::string& name, const char* what) const {
     io::PointArray given;
-    detail::together(*ranks_, [&] { given = field_of(values, name); });
+    detail::together(*ranks_, [&] { given = field_of(values, name, what); });
     const auto type = static_cast<std::int64_t>(given.values.index());
     if (ranks_->least(type) != -ranks_->least(-type))
-      throw SharedError("the field has values of another type on other ranks");
+      throw SharedError(std::string(what) + " has values of another type on other ranks");
+    return given;
+  }
+
+  /// Collective.
+  Held bring(const Array1& values, const std::string& name, const std::optional<Array1>& order) const {
+    const io::PointArray given = given_to_all(values, name, "the field");
     Held held;
-    held.order = order_of(mesh(), given);
+    if (!order) {
+      held.order = order_of(mesh(), given);
+    } else {
+      const io::PointArray places = given_to_all(*order, name + "_Order", "the order");
+      held.order = order_of(mesh(), places);
+      held.note = outputs::note_of_order(mesh(), held_of(places), held_of(given));
+      if (ranks_->rank() != 0) held.note.clear();
+    }
     detail::together(*ranks_, [&] {
       const auto& points = mesh().points();
       held.dataset.points = detail::tabulated_rows<double, 3>("GALE::held_points", points.extent(0),
                                                               [&](Offset i, int axis) { return points(i, axis); });
     });
-    held.dataset.arrays.push_back(
-        outputs::detail::brought(mesh().exchange().from_givers(), *ranks_, given, mesh().vertices()));
+    held.dataset.arrays.push_back(held_of(given));
     return held;
   }
 
+  /// An array that was handed over, at all vertices that this rank holds. Collective.
+  io::PointArray held_of(const io::PointArray& given) const {
+    return outputs::detail::brought(mesh().exchange().from_givers(), *ranks_, given, mesh().vertices());
+  }
+
   /// The diagram on the first rank, with global ids; nothing of it on the others.
-  nb::dict diagram(Job& job, const Array1& values, const std::string& name, const outputs::Settings& settings,
-                   const ComputeOptions& options) const {
+  nb::dict diagram(Job& job, const Array1& values, const std::string& name, const std::optional<Array1>& order,
+                   const outputs::Settings& settings, const ComputeOptions& options) const {
     std::vector<GlobalId> births, deaths;
+    std::string note;
     auto found = job.run([&] {
       const ThreadLimit limit(options.threads);
-      const Held held = bring(values, name);
+      const Held held = bring(values, name, order);
+      note = held.note;
       const io::PointArray& field = held.dataset.arrays.front();
       const auto threshold = settings.thresholds.find("persistence");
       const double least =
@@ -189,6 +213,7 @@ class PyDistributedMesh : public Kept {
     columns["death_vertex"] = numpy_of(std::move(deaths));
     nb::dict results;
     results["diagram"] = columns;
+    results["note"] = text_of(note);
     return results;
   }
 
@@ -214,12 +239,12 @@ void add_ranks(nb::module_& module) {
       .def_prop_ro("owners", &PyDistributedMesh::owners)
       .def("points", &PyDistributedMesh::points)
       .def("check", &PyDistributedMesh::check, "analysis"_a, "field"_a, "name"_a, "given"_a, "threads"_a,
-           "progress"_a.none())
+           "progress"_a.none(), "order"_a.none())
       .def_static(
           "check_part", [](const Array1&, const Array1&, const Array1&, const std::optional<Array1>&, bool, int) {},
           "ids"_a, "points"_a, "cells"_a, "cell_ids"_a.none(), "repartition"_a, "capacity"_a)
       .def("analyse", &PyDistributedMesh::analyse, "analysis"_a, "field"_a, "name"_a, "given"_a, "threads"_a,
-           "progress"_a.none());
+           "progress"_a.none(), "order"_a.none());
 }
 
 }  // namespace gale::python

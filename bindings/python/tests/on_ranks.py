@@ -83,6 +83,11 @@ for values, repartition in ((field, False), (np.round(field), True), (field.asty
     check((found.minima, found.maxima) == (expected.minima, expected.maxima), "simplified extrema")
     for name in ("values", "order"):
         check(np.array_equal(getattr(found, name), getattr(expected, name)[part.vertex_ids]), f"simplified {name}")
+    simple, order = expected.values, expected.order
+    found, expected = part.persistence_diagram(simple[ids], order=order[ids]), whole.persistence_diagram(simple, order=order)
+    check(found == expected if COMM.rank == 0 else len(found.birth) == 0, "diagrams along an order")
+    found, expected = part.merge_tree(simple[ids], order=order[ids]), whole.merge_tree(simple, order=order)
+    check(COMM.rank != 0 or np.array_equal(found.nodes.points, expected.nodes.points), "nodes along an order")
     found, expected = part.merge_tree(values[ids], persistence="20%"), whole.merge_tree(values, persistence="20%")
     check(COMM.rank != 0 or np.array_equal(found.nodes.points, expected.nodes.points), "nodes of a simplified field")
 
@@ -114,6 +119,8 @@ for call, naming in (
         (lambda: part.critical_points(np.ma.masked_all(len(ids)) if is_last else own), "masked"),
         (lambda: part.critical_points(own, threads=-1 if is_last else 1), "-1"),
         (lambda: part.critical_points(own, threads="two" if is_last else 1), ""),
+        (lambda: part.critical_points(own, order=ids[:, None] if is_last else ids), "the order has 2 dimensions"),
+        (lambda: part.critical_points(own, order=ids - 1), "vertex 0 has -1"),
         (lambda: part.persistence_diagram(own, "much" if is_last else "2%"), "much"),
         (lambda: part.critical_points(*[own][is_last:]), "field"),
         (lambda: gale.DistributedMesh(COMM, ids / 2 if is_last else ids, points[ids], []), "integers"),
@@ -124,6 +131,7 @@ for call, naming in (
     expect(call, naming)
 if COMM.size > 1:
     expect(lambda: part.morse_smale(own, separatrices2=is_last), "different things")
+    expect(lambda: part.merge_tree(own, order=ids if is_last else None), "different things")
     expect(lambda: part.merge_tree(own, "join" if is_last else "split"), "different things")
     expect(lambda: part.merge_tree(own) if is_last else part.critical_points(own), "different things")
 

@@ -173,8 +173,18 @@ class Analyses(unittest.TestCase):
         found = self.mesh.simplify_field(self.field, persistence="10%")
         self.assertEqual(sorted(found.order), list(range(self.mesh.vertices)))
         self.assertTrue(np.all(np.diff(found.values[np.argsort(found.order)]) >= 0))
-        left = self.mesh.merge_tree(found.order, type="join")
-        self.assertEqual(np.count_nonzero(left.nodes["CriticalType"] == 0), found.minima)
+        for field, order in ((found.order, None), (found.values, found.order)):
+            left = self.mesh.merge_tree(field, type="join", order=order)
+            self.assertEqual(np.count_nonzero(left.nodes["CriticalType"] == 0), found.minima)
+            self.assertTrue(np.array_equal(left.nodes["Scalar"], field[left.nodes["VertexId"]]))
+        by_numbers = self.mesh.persistence_diagram(found.values)
+        self.assertGreater(len(by_numbers.birth), len(self.mesh.persistence_diagram(found.values, order=found.order).birth))
+
+    def test_orders_that_contradict_the_values_count(self):
+        back = np.argsort(np.argsort(-self.field, kind="stable"), kind="stable")
+        with self.assertWarnsRegex(UserWarning, "'field_Order' orders the vertices, though it contradicts 'field'"):
+            found = self.mesh.critical_points(self.field, order=back)
+        self.assertTrue(np.array_equal(found["CriticalType"], self.mesh.critical_points(back)["CriticalType"]))
 
     def test_complex(self):
         whole = self.mesh.morse_smale(self.field)

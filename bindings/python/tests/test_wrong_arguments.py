@@ -40,6 +40,8 @@ WRONG = {
                           FIELD.astype("datetime64[s]")],
     "threads": NOT_THREADS,
     "progress": [5, "x", object(), []],
+    "order": ["x", object(), 3, [0, 0], np.arange(len(FIELD))[:, None], np.zeros(len(FIELD)), -np.arange(len(FIELD)),
+              np.arange(len(FIELD)) + 1, np.arange(len(FIELD)) + 0.5, np.full(len(FIELD), np.nan)],
     "persistence": ["x%", "3", "", "%", "nan%", "-3%", -1, np.nan, object(), [1, 2], 1j, b"3%", 10**400],
     "extrema_only": ["x", object()],
     "separatrices2": ["x", object()],

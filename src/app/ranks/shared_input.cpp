@@ -254,7 +254,7 @@ FieldOnMesh read_on_ranks(const InputOptions& from, int capacity, const WantedOf
   std::optional<io::PointArray> held;
   if (input.has_order) {
     held = held_values(mesh, input.field);
-    note = note_of_order(mesh, held_values(mesh, input.order), *held);
+    note = outputs::note_of_order(mesh, held_values(mesh, input.order), *held);
   }
   const VertexOrder order = order_by(mesh, input.order);
   io::PointArray field{input.field.name, 1, {}};

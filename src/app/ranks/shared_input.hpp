@@ -59,8 +59,4 @@ void deal_layers(const Ranks& ranks, const std::optional<Grid>& grid, const io::
 /// throws SharedError.
 SharedInput read_pieces(const Ranks& ranks, const InputOptions& input, const io::PieceNames& pieces);
 
-/// A note if an array that orders the vertices of such a mesh contradicts the field; else empty. Both have values by
-/// input id of the part. Throws SharedError if the order isn't a permutation of 0 to n-1. Collective.
-std::string note_of_order(const Mesh& mesh, const io::PointArray& order, const io::PointArray& field);
-
 }  // namespace gale::app

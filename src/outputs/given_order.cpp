@@ -3,14 +3,13 @@
 #include <variant>
 #include <vector>
 
-#include <gale/app/ranks/shared_input.hpp>
 #include <gale/base/error.hpp>
 #include <gale/base/sort.hpp>
 #include <gale/mesh/exchange/entries_by_rank.hpp>
 #include <gale/mesh/exchange/messages.hpp>
 #include <gale/outputs/field.hpp>
 
-namespace gale::app {
+namespace gale::outputs {
 
 namespace {
 
@@ -37,7 +36,7 @@ std::vector<PlacedValue> placed_values(const Mesh& mesh, const io::PointArray& o
   std::vector<PlacedValue> placed;
   for (const Id v : mesh.owned_vertices()) {
     const Id vertex = input[v];
-    const double place = outputs::value_at(order, vertex), value = outputs::value_at(field, vertex);
+    const double place = value_at(order, vertex), value = value_at(field, vertex);
     const bool is_place = place >= 0 && place < static_cast<double>(mesh.all_vertices()) &&
                           place == static_cast<double>(static_cast<GlobalId>(place));
     if (!is_place) {
@@ -57,12 +56,12 @@ std::vector<PlacedValue> share_of_places(const Mesh& mesh, const io::PointArray&
   const Ranks& ranks = mesh.exchange().ranks();
   const GlobalId at_once = mesh.all_vertices() / ranks.size() + 1;
   std::vector<PlacedValue> placed;
-  detail::together(ranks, [&] { placed = placed_values(mesh, order, field); });
-  const auto sent = detail::collect_by_rank<PlacedValue>(
+  gale::detail::together(ranks, [&] { placed = placed_values(mesh, order, field); });
+  const auto sent = gale::detail::collect_by_rank<PlacedValue>(
       ranks, "GALE::placed_values", static_cast<Offset>(placed.size()),
       [&](Id i) { return static_cast<int>(placed[i].place / at_once); }, [&](Id i) { return placed[i]; });
-  const auto received = detail::exchange_packed(ranks, "GALE::received_values", sent);
-  detail::together(ranks, [&] {
+  const auto received = gale::detail::exchange_packed(ranks, "GALE::received_values", sent);
+  gale::detail::together(ranks, [&] {
     placed.assign(received.entries.data(), received.entries.data() + received.count());
     parallel_sort("GALE::sort_placed", placed.begin(), placed.end(),
                   [](const auto& a, const auto& b) { return a.place < b.place; });
@@ -92,12 +91,11 @@ std::string note_of_order(const Mesh& mesh, const io::PointArray& order, const i
   if (ranks.rank() == 0 && !placed.empty()) before = placed.front();
   std::string found;
   for (const PlacedValue& one : placed) {
-    if (found.empty() && one.value() < before.value())
-      found = outputs::contradiction(field.name, one.vertex, before.vertex);
+    if (found.empty() && one.value() < before.value()) found = contradiction(field.name, one.vertex, before.vertex);
     before = one;
   }
   const std::int64_t first = ranks.least(std::int64_t(found.empty() ? ranks.size() : ranks.rank()));
   return first == ranks.size() ? "" : ranks.broadcast(found, static_cast<int>(first));
 }
 
-}  // namespace gale::app
+}  // namespace gale::outputs
