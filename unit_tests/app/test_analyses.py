@@ -11,7 +11,7 @@ import gale
 ROOT = Path(__file__).parents[2]
 FILTERS = ROOT / "bindings" / "vtk" / "filters"
 DOCUMENTS = "".join(page.read_text() for page in (ROOT / "docs").glob("*.md"))
-OF_ALL = {"field", "name", "threads", "progress"}  # arguments in Python
+OF_ALL = {"field", "name", "threads", "progress", "order"}  # arguments in Python
 THRESHOLD = {"Simplify": "0", "Persistence": "1", "PersistenceIsPercent": "1"}  # what filters have for a threshold
 
 
