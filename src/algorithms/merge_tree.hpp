@@ -85,9 +85,9 @@ struct MergeTreeOptions : ComputeOptions {
 ///
 /// By kernels where the mesh is on a device and they find room there, else by threads of the host: `options` may say
 /// otherwise, and `computed` is told; but what joins the few vertices where paths meet is on the host, and their keys
-/// come there. Of a grid that computes the keys are all that is read. Throws gale::Error for a threshold that is
-/// no number or without values; naming the vertex, if a value is NaN where it is asked for; and as require_consumers,
-/// make_structure and sweeps do.
+/// come there. Of a grid that computes the keys are all that is read. Throws gale::Error for a threshold that
+/// isn't 0 or more, or one without values; naming the vertex, if a value is NaN where it is asked for; and as
+/// require_consumers, make_structure and sweeps do.
 GALE_EXPORT MergeTree find_merge_tree(const VertexOrder& order, Tree tree, const MergeTreeOptions& options = {},
                                       Computed* computed = nullptr);
 

@@ -11,7 +11,7 @@ namespace gale {
 struct SimplifyOptions {
   bool extrema_only = false;     ///< cancel no 1-saddle with a 2-saddle: a small part of the time
   Paths paths = Paths::whole;    ///< `joined`: memory in proportion to what is left, however often paths meet
-  int threads = host_threads();  ///< at least 1
+  int threads = host_threads();  ///< 1 to most_threads
 };
 
 /// Simplifies a Morse-Smale complex: cancels the pairs of critical simplices whose persistence, the difference of the

@@ -57,8 +57,8 @@ struct StayingExtrema {
 ///
 /// By kernels where the mesh is on a device and they find room there, else by threads of the host: `options` may say
 /// otherwise, and `computed` is told; but the few vertices where paths meet are joined, and branches are filled, on the
-/// host. Throws gale::Error if the threshold or a value that is asked for is NaN (on ranks any that a rank holds),
-/// naming the vertex; and as make_structure and sweeps do.
+/// host. Throws gale::Error for a threshold that isn't 0 or more, or no `value`; if a value that is asked for is NaN
+/// (on ranks any that a rank holds), naming the vertex; and as make_structure and sweeps do.
 GALE_EXPORT SimplifiedField simplify_field(const VertexOrder& order, const std::function<double(Id)>& value,
                                            double threshold, const ComputeOptions& options = {},
                                            Computed* computed = nullptr);

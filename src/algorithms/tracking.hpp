@@ -64,9 +64,9 @@ class GALE_EXPORT ExtremumTracker {
 
   /// Adds the next step. `value(v)` is the field at an input vertex, and is called until the step after has been added,
   /// by several threads.
-  /// `threshold`, at least 0, is a difference of values. Throws gale::Error if the step's mesh is another than the
-  /// steps' before, or one rank's part of several, if its time isn't after theirs, and if a value is NaN; then nothing
-  /// was added.
+  /// `threshold`, at least 0, is a difference of values; threads are 1 to most_threads. Throws gale::Error for others,
+  /// if the step's mesh is another than the steps' before, or one rank's part of several, if its time or a value is
+  /// NaN, and for no `value`; then nothing was added.
   void add(double time, const DiscreteGradient& gradient, std::function<double(Id)> value, double threshold = 0,
            int threads = host_threads());
 

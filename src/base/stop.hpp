@@ -28,6 +28,8 @@ class StopRequest {
 /// While it lives, what this thread computes, also on threads that it begins for that, throws Stopped soon after the
 /// request is made; with nullptr nothing stops it. What was under way is given up, and what was there before can be
 /// used as before. To be destroyed on the thread that made it, last made first.
+///
+/// A rank of several stops where they tell each other what has failed: it throws Stopped, the others gale::SharedError.
 class GALE_EXPORT StopScope {
  public:
   /// Begins with `request`, which must outlive this.
@@ -40,9 +42,27 @@ class GALE_EXPORT StopScope {
 
  private:
   const StopRequest* before_;
+  bool could_stop_;
 };
 
 namespace detail {
+
+/// Has this thread not stop, as other ranks wait for what it does next, until its StopScope ends; but where they hear
+/// of it, while a StopsHere lives.
+GALE_EXPORT void await_ranks();
+
+/// While it lives, what asks this thread to stop does so: others will hear of it. Ends as await_ranks() if that was
+/// called before.
+class GALE_EXPORT StopsHere {
+ public:
+  StopsHere();
+  ~StopsHere();
+  StopsHere(const StopsHere&) = delete;
+  StopsHere& operator=(const StopsHere&) = delete;
+
+ private:
+  const bool could_stop_;
+};
 
 /// What this thread's computations look at; nullptr if nothing stops them.
 GALE_EXPORT const StopRequest* stop_request();

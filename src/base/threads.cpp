@@ -98,10 +98,10 @@ int detail::available_cores() {
 
 int host_threads() {
   const int chosen = chosen_threads.load(std::memory_order_relaxed);
-  return std::min(chosen > 0 ? chosen : default_threads(), limit_here);
+  return std::min({chosen > 0 ? chosen : default_threads(), limit_here, most_threads});
 }
 
-void detail::require_threads(int count) {
+void detail::require_thread_count(int count) {
   if (count < 1 || count > most_threads)
     throw Error("threads is " + std::to_string(count) + ", not 1 to " + std::to_string(most_threads));
 }

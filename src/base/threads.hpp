@@ -27,7 +27,7 @@ namespace gale {
 
 /// How many threads a host loop, or a sweep unless told otherwise, uses when this thread begins it: what was set, else
 /// what OMP_NUM_THREADS says, else what OpenMP would take, but no more than the cores that the process may run on and
-/// than a container's CPU quota, rounded up. No more than this thread's ThreadLimits in any case.
+/// than a container's CPU quota, rounded up. No more than this thread's ThreadLimits, and most_threads, in any case.
 GALE_EXPORT int host_threads();
 
 /// The most threads that can be asked for: GCC's OpenMP ends the process where the system starts no more.
@@ -54,7 +54,7 @@ class GALE_EXPORT ThreadLimit {
 namespace detail {
 
 /// Throws gale::Error for a number of threads that nobody can have.
-GALE_EXPORT void require_threads(int count);
+GALE_EXPORT void require_thread_count(int count);
 
 /// How many threads OpenMP is asked for, to run so many bodies: as many as this thread has asked for before, within
 /// host_threads(). GCC's ends the threads that a smaller team lacks, and starts others for the next large one, which

@@ -9,6 +9,7 @@
 #endif
 
 #include <gale/base/error.hpp>
+#include <gale/base/stop.hpp>
 #include <gale/distributed/communicator.hpp>
 
 namespace gale {
@@ -71,6 +72,7 @@ struct Communicator::Data {
   /// but lets others run: each look moves a piece. Each time it looks more than once, as MPI takes one step at each
   /// look, and a sum takes several.
   void wait(std::vector<MPI_Request>& requests, std::int64_t bytes) {
+    if (size > 1) detail::await_ranks();
     using Clock = std::chrono::steady_clock;
     constexpr std::int64_t in_pieces = 1 << 20;
     constexpr int looks = 16;

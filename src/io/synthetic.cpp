@@ -236,7 +236,8 @@ Dataset make_layers(const std::array<Id, 3>& of, const Interval& layers, bool ha
   if (of[1] != n || (of[2] != n && of[2] != 1))
     refuse("no synthetic mesh has ", of[0], " x ", of[1], " x ", of[2], " points");
   const Id last = layers.first + layers.size(), all = of[2] == 1 ? of[1] : of[2];
-  if (layers.first < 0 || last > all) refuse("there are no layers ", layers.first, " to ", last - 1, " among ", all);
+  if (layers.first < 0 || layers.size() < 0 || last > all)
+    refuse("there are no layers from ", layers.first, " up to ", last, " among ", all);
   if (of[2] == 1) {
     require_squares(n);
     constexpr int most = 65535;  // its 2^32 numbers make the field's noise

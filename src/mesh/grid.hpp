@@ -27,8 +27,8 @@ class GALE_EXPORT Grid {
   explicit Grid(const std::array<Id, 3>& points);
 
   /// A grid with the cubes all of whose corners are inside; none may be. `inside` has a bit for each point: rows along
-  /// x, y fastest, each of words_of_row(points[0]) words, the lowest bit first. Bits behind a row's last point must be
-  /// 0. Takes time O(n), and three bits a point.
+  /// x, y fastest, each of words_of_row(points[0]) words, the lowest bit first. Throws gale::Error for one behind a
+  /// row's last point, too. Takes time O(n), and three bits a point.
   Grid(const std::array<Id, 3>& points, const Array<std::uint64_t, HostMemory>& inside);
 
   /// How many words of 64 bits so many points take.

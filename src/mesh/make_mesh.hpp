@@ -85,6 +85,7 @@ struct PlaceOfOther {
 /// Throws gale::Error for one of the types of cells that is none of VTK's.
 template <class View>
 void require_types(const View& types) {
+  if constexpr (std::is_same_v<typename View::non_const_value_type, std::uint8_t>) return;
   using Space =
       std::conditional_t<is_device_memory<typename View::memory_space>, WorkerSpace, Kokkos::DefaultHostExecutionSpace>;
   const Offset count = types.extent(0);

@@ -116,10 +116,11 @@ struct Outcome {
 /// itself throws Stopped.
 GALE_EXPORT void fail_together(const Ranks& ranks, const Outcome& outcome);
 
-/// Runs an action, which may throw.
+/// Runs an action, which may throw: what becomes of it is told to other ranks.
 template <class Action>
 Outcome tried(const Action& action) {
   try {
+    const StopsHere told;
     action();
     return {};
   } catch (const std::exception& error) {

@@ -239,7 +239,8 @@ Analysis merge_trees() {
     const AtExcerpt at(tree.excerpt ? *tree.excerpt : mesh, mesh, input.dataset, input.field);
     const int samples = settings.numbers.at("arc_samples");
     const auto gathered = gather_arc_vertices(mesh, input.dataset, input.field, tree, samples);
-    const MergeTree nothing;  // what the others have of nodes and arcs
+    MergeTree nothing;  // what the others have of nodes and arcs
+    nothing.excerpt = tree.excerpt;
     const MergeTree& told = mesh.exchange().ranks().rank() == 0 ? tree : nothing;
     return {{"nodes", tree_nodes(at.dataset(), at.field(), told)},
             {"arcs", tree_arcs(at.dataset(), at.field(), told, samples, gathered)},

@@ -32,7 +32,7 @@ double range_of(const io::PointArray& field, const Ranks& ranks) {
 }  // namespace
 
 double threshold_of(const Persistence& persistence, const io::PointArray& field, const Ranks& ranks) {
-  gale::detail::require_threshold(persistence.value);
+  gale::detail::together(ranks, [&] { gale::detail::require_threshold(persistence.value); });
   if (!persistence.is_percent) return persistence.value;
   const double range = range_of(field, ranks);
   if (!std::isfinite(range))

@@ -18,8 +18,8 @@ struct Persistence {
 };
 
 /// The threshold as a difference of values: what `simplify` takes. NaN is no part of the range, which is that of the
-/// values on all `ranks`: collective where there are several. Throws gale::Error, with the field's name, for percents
-/// of a range that isn't finite.
+/// values on all `ranks`: collective where there are several. Throws gale::Error for one that isn't 0 or more, and,
+/// with the field's name, for percents of a range that isn't finite.
 GALE_EXPORT double threshold_of(const Persistence& persistence, const io::PointArray& field,
                                 const Ranks& ranks = Ranks::alone());
 
@@ -40,6 +40,7 @@ struct DiagramPoint {
 
 /// All pairs and essential classes, by type; of one type the pairs in their order, then the essential classes. Without
 /// the pairs whose persistence is below `least`; what never ends is always there. `field` is that of the gradient.
+/// Throws gale::Error for a `least` that isn't 0 or more.
 GALE_EXPORT std::vector<DiagramPoint> persistence_diagram(const DiscreteGradient& gradient,
                                                           const PersistencePairs& pairs, const io::PointArray& field,
                                                           double least = 0);

@@ -44,7 +44,7 @@ Computing::Computing(const Mesh& mesh, const ComputeOptions& options, Computed* 
       limit_(options.threads),
       running_(computed_.seconds_running) {
   together(mesh.exchange().ranks(), [&] {
-    require_threads(options.threads);
+    require_thread_count(options.threads);
     require_consumers(options);
   });
 }

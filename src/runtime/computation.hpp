@@ -60,7 +60,8 @@ GALE_EXPORT DeviceSweepOptions sweep_of_kernels(const StructureOptions& options)
 class GALE_EXPORT Computing {
  public:
   /// Begins; until it ends, loops of this thread keep to options.threads. `computed` may be null; both must outlive it.
-  /// Throws as require_consumers does.
+  /// Throws as require_consumers does, and for threads that nobody can have: of a mesh on several ranks it is
+  /// collective.
   Computing(const Mesh& mesh, const ComputeOptions& options, Computed* computed);
   Computing(const Computing&) = delete;
   Computing& operator=(const Computing&) = delete;

@@ -68,7 +68,7 @@ class ProgressReport {
 /// gale::Error for threads that nobody can have.
 template <class Body>
 void sweep(const Interval& segments, const SweepOptions& options, const Body& body) {
-  require_threads(options.threads);
+  require_thread_count(options.threads);
   SegmentCursor cursor(segments, options.threads);
   ProgressReport report(segments.size(), options);
   on_threads(options.threads, [&](int consumer) {

@@ -292,7 +292,7 @@ TEST(Simplify, refuses_arguments_that_are_none) {
   const auto value = [&](Id v) { return found.field().at(v); };
   EXPECT_EQ(message_of([&] { simplify(found.complex(), value, std::nan("")); }),
             "the persistence nan is not 0 or more");
-  EXPECT_EQ(message_of([&] { simplify(found.complex(), value, -1); }), "the persistence -1.000000 is not 0 or more");
+  EXPECT_EQ(message_of([&] { simplify(found.complex(), value, -1); }), "the persistence -1 is not 0 or more");
   EXPECT_EQ(message_of([&] { simplify(found.complex(), nullptr, 1); }),
             "a complex simplified by persistence needs the field's values");
   SimplifyOptions options;

@@ -216,9 +216,9 @@ TEST(WrongOptions, of_one_rank_end_all_alike) {
   tree.value = one;
   tree.threshold = is_last ? -1 : 1;
   EXPECT_EQ(message_of([&] { find_merge_tree(order, Tree::join, tree); }),
-            last + "the persistence -1.000000 is not 0 or more");
+            last + "the persistence -1 is not 0 or more");
   EXPECT_EQ(message_of([&] { simplify_field(order, one, is_last ? -1 : 1); }),
-            last + "the persistence -1.000000 is not 0 or more");
+            last + "the persistence -1 is not 0 or more");
   ComputeOptions many;
   many.threads = is_last ? 0 : 1;
   EXPECT_EQ(message_of([&] { find_critical_points(order, many); }), last + "threads is 0, not 1 to 1024");

@@ -61,6 +61,10 @@ TEST(Arrays, ToCsvWritesWhatIsReadBack) {
                     {"value", 1, std::vector<double>{0.1, 1e-300}}}),
             "id,\"a,\"\"b\"\"_0\",\"a,\"\"b\"\"_1\",value\n9007199254740993,0.5,1.0000000150474662e+30,"
             "0.10000000000000001\n-1,-2,nan,1e-300\n");
+  EXPECT_EQ(to_csv({{"", 1, std::vector<std::int8_t>{65, -1}}, {"b", 1, std::vector<std::uint8_t>{255, 0}}}),
+            ",b\n65,255\n-1,0\n");
+  EXPECT_EQ(to_csv({{"a", 1, std::vector<float>{}}}), "a\n");
+  EXPECT_EQ(to_csv({}), "\n");
   EXPECT_EQ(error_of([] {
               to_csv({{"a", 1, std::vector<int>{1, 2}}, {"b", 1, std::vector<int>{1}}});
             }),

@@ -127,8 +127,9 @@ TEST(MakeGridPart, AllTogetherAreTheWholeGrid) {
 
 TEST(MakeLayers, RefusesWhatIsNone) {
   EXPECT_EQ(error_of([] { make_layers({3, 4, 5}, {0, 2}, true); }), "no synthetic mesh has 3 x 4 x 5 points");
-  EXPECT_EQ(error_of([] { make_layers({4, 4, 4}, {0, 10}, true); }), "there are no layers 0 to 9 among 4");
-  EXPECT_EQ(error_of([] { make_layers({4, 4, 1}, {-3, 2}, true); }), "there are no layers -3 to 1 among 4");
+  EXPECT_EQ(error_of([] { make_layers({4, 4, 4}, {0, 10}, true); }), "there are no layers from 0 up to 10 among 4");
+  EXPECT_EQ(error_of([] { make_layers({4, 4, 4}, {3, 1}, true); }), "there are no layers from 3 up to 1 among 4");
+  EXPECT_EQ(error_of([] { make_layers({4, 4, 1}, {-3, 2}, true); }), "there are no layers from -3 up to 2 among 4");
 }
 
 TEST(MakeGridPart, NumbersBeyond32Bits) {

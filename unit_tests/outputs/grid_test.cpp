@@ -427,6 +427,8 @@ TEST(Grids, refuse_what_has_no_cells) {
   const Array<std::uint64_t, HostMemory> nothing("inside", 9);
   EXPECT_EQ(message_of([&] { Mesh(Grid({3, 3, 3}, nothing)); }), "the mesh has no tetrahedra");
   EXPECT_EQ(message_of([&] { Grid({3, 3, 4}, nothing); }), "the points of a grid have 9 words of bits, not 12");
+  nothing(4) = 8;
+  EXPECT_EQ(message_of([&] { Grid({3, 3, 3}, nothing); }), "row 4 of a grid has bits behind its 3 points");
   EXPECT_EQ(message_of([] { Mesh(Grid({2, 2, 2}), 0); }), "segments of at most 0 vertices hold none");
 }
 

@@ -41,7 +41,7 @@ TEST(Persistence, there_are_no_percents_of_an_infinite_range) {
 TEST(Persistence, thresholds_are_0_or_more) {
   const io::PointArray field{"field", 1, std::vector<double>{0, 1}};
   for (const bool is_percent : {false, true}) {
-    EXPECT_EQ(message_of([&] { threshold_of({-1, is_percent}, field); }), "the persistence -1.000000 is not 0 or more");
+    EXPECT_EQ(message_of([&] { threshold_of({-1, is_percent}, field); }), "the persistence -1 is not 0 or more");
     EXPECT_EQ(message_of([&] {
                 threshold_of({std::nan(""), is_percent}, field);
               }),

@@ -175,11 +175,11 @@ namespace {
 template <class Pair>
 DiscreteGradient found_by(const VertexOrder& order, const SweepOptions& options, const Pair& pair) {
   const ThreadLimit limit(options.threads);
-  const int consumers = std::max(options.threads, 1);
   std::shared_ptr<detail::GradientStore> store;
   detail::together(order.mesh().exchange().ranks(), [&] {
-    store = std::make_shared<detail::GradientStore>(order.mesh(), order, consumers);
-    pair(*store, consumers);
+    detail::require_thread_count(options.threads);
+    store = std::make_shared<detail::GradientStore>(order.mesh(), order, options.threads);
+    pair(*store, options.threads);
     store->finish();
   });
   store->share_counts();

@@ -195,7 +195,7 @@ MorseSmaleComplex find_morse_smale_complex(const DiscreteGradient& gradient, con
 MorseSmaleComplex find_morse_smale_complex(Structure& structure, const DiscreteGradient& gradient,
                                            const MorseSmaleParts& parts, const SweepOptions& options) {
   detail::require_same_mesh("the gradient", gradient.mesh(), structure.mesh());
-  detail::together(gradient.mesh().exchange().ranks(), [&] { detail::require_threads(options.threads); });
+  detail::together(gradient.mesh().exchange().ranks(), [&] { detail::require_thread_count(options.threads); });
   const ThreadLimit limit(options.threads);
   return find_parts(gradient, parts, options.threads, [&]() -> Structure& { return structure; });
 }

@@ -93,7 +93,7 @@ class NumberingSweep {
         edge_counts_(allocate<Counts>("GALE::first_edges", vertices_ + 1)),
         triangle_counts_(allocate<Counts>("GALE::first_triangles", vertices_ + 1)),
         on_surface_(allocate<Array<std::uint8_t, HostMemory>>("GALE::on_surface", vertices_)),
-        large_(std::max(options.threads, 1)) {
+        large_(std::max(options.threads, 0)) {
     structure.for_each_segment(simplex_numbers_relations, options,
                                [this](int consumer, const SegmentRows& rows) { visit(consumer, rows); });
   }

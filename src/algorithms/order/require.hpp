@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <sstream>
 #include <string>
 
 #include <gale/base/error.hpp>
@@ -29,7 +30,10 @@ inline void require_whole_mesh(const std::string& what, const Mesh& mesh, const 
 
 /// Throws gale::Error for a threshold of persistence that is none.
 inline void require_threshold(double threshold) {
-  if (!(threshold >= 0)) throw Error("the persistence " + std::to_string(threshold) + " is not 0 or more");
+  if (threshold >= 0) return;
+  std::ostringstream text;
+  text << "the persistence " << threshold << " is not 0 or more";
+  throw Error(text.str());
 }
 
 /// What is wrong with a vertex whose value is NaN.

@@ -208,7 +208,7 @@ GatheredPairs gather_persistence_pairs(const DiscreteGradient& gradient, const S
     return GatheredPairs{whole.mesh(), highest_vertices(whole), find_persistence_pairs(whole, options)};
   };
   if (ranks.size() == 1) return find(gradient);
-  detail::together(ranks, [&] { detail::require_threads(options.threads); });
+  detail::together(ranks, [&] { detail::require_thread_count(options.threads); });
   const ThreadLimit limit(options.threads);
   if (ranks.sum(detail::has_forks(gradient) ? 1 : 0) == 0)
     return detail::PairsOnRanks(gradient, options.threads, most_bytes).find();

@@ -135,7 +135,7 @@ PersistencePairs pairs_of(const DiscreteGradient& gradient, const CriticalPlaces
 
 PersistencePairs find_persistence_pairs(const DiscreteGradient& gradient, const SweepOptions& options) {
   detail::require_whole_mesh("persistence pairs", gradient.mesh(), ", which gather_gradient() brings together");
-  detail::require_threads(options.threads);
+  detail::require_thread_count(options.threads);
   const ThreadLimit limit(options.threads);
   gradient.store().bring_pairs_to_host();
   const detail::CriticalPlaces places(gradient.critical());

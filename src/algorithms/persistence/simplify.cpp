@@ -181,7 +181,7 @@ MorseSmaleComplex simplify(const MorseSmaleComplex& complex, const std::function
   const Ranks& ranks = complex.gradient.mesh().exchange().ranks();
   detail::together(ranks, [&] {
     detail::require_threshold(threshold);
-    detail::require_threads(options.threads);
+    detail::require_thread_count(options.threads);
     if (!value) throw Error("a complex simplified by persistence needs the field's values");
   });
   if (ranks.size() > 1) return simplify_on_ranks(complex, value, threshold, options);

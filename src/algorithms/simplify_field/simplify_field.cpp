@@ -108,7 +108,7 @@ SimplifiedField simplified(const VertexOrder& order, const ComputeOptions& optio
                            const Choose& choose) {
   Computing computing(order.mesh(), options, computed);
   return with_extremum_graph(computing, order, options, [&](const auto& space, auto graph, const auto& structure) {
-    return simplified_in(space, order, std::move(graph), structure, std::max(options.threads, 1), choose);
+    return simplified_in(space, order, std::move(graph), structure, options.threads, choose);
   });
 }
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <array>
 #include <limits>
 #include <string>
@@ -131,11 +132,9 @@ void ExtremumTracker::add(double time, const DiscreteGradient& gradient, std::fu
   if (latest_ && !(latest_->mesh == gradient.mesh()))
     throw Error("step " + std::to_string(number) +
                 " has another mesh than the steps before it: tracks are of one mesh");
-  if (!(time == time) || !(tracks_.times.empty() || tracks_.times.back() < time))
-    throw Error("the time of step " + std::to_string(number) + " is " + std::to_string(time) +
-                ", which isn't after the one before it");
+  if (std::isnan(time)) throw Error("the time of step " + std::to_string(number) + " is NaN");
   detail::require_threshold(threshold);
-  detail::require_threads(threads);
+  detail::require_thread_count(threads);
   if (!value) throw Error("tracks need the field's values");
   const ThreadLimit limit(threads);
   auto step =

@@ -2,7 +2,6 @@
 
 #include <charconv>
 #include <cstdint>
-#include <cstdlib>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -81,7 +80,7 @@ class TextReader : public ByteSource {
   std::size_t at_ = 0, end_ = 0;
 };
 
-/// What a number becomes that no double holds.
+/// The double nearest to a number beyond what another type holds: 0 or an infinity where no double holds it.
 double zero_or_infinity(std::string_view word);
 
 /// The number that `word` writes, which may have a sign, or be nan or inf if T is of floating point. False unless all

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #if defined(GALE_HAS_JSON)
 #include <nlohmann/json.hpp>

@@ -1,5 +1,6 @@
 #include <charconv>
 #include <cstdint>
+#include <utility>
 
 #include <gale/base/error.hpp>
 #include <gale/io/bytes/text.hpp>
@@ -75,8 +76,13 @@ void add_number(T value, std::string& text) {
 
 std::string to_csv(const std::vector<PointArray>& columns) {
   std::string csv;
-  const auto separate = [&csv] {
-    if (!csv.empty() && csv.back() != '\n') csv += ',';
+  bool is_first = true;  // in its line
+  const auto separate = [&] {
+    if (!std::exchange(is_first, false)) csv += ',';
+  };
+  const auto end_line = [&] {
+    csv += '\n';
+    is_first = true;
   };
   const std::size_t rows = columns.empty() ? 0 : point_count(columns.front());
   for (const PointArray& column : columns) {
@@ -88,7 +94,7 @@ std::string to_csv(const std::vector<PointArray>& columns) {
       csv += quoted(column.components == 1 ? column.name : column.name + "_" + std::to_string(k));
     }
   }
-  csv += '\n';
+  end_line();
   for (std::size_t row = 0; row < rows; ++row) {
     for (const PointArray& column : columns) {
       for (int k = 0; k < column.components; ++k) {
@@ -96,7 +102,7 @@ std::string to_csv(const std::vector<PointArray>& columns) {
         std::visit([&](const auto& values) { add_number(values[row * column.components + k], csv); }, column.values);
       }
     }
-    csv += '\n';
+    end_line();
   }
   return csv;
 }

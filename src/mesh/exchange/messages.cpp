@@ -31,17 +31,18 @@ ReceivedBytes exchange_pieces(const Ranks& ranks, const char* label,
   const std::int64_t block = block_size(size), head = sizeof(BlockHead);
   std::vector<PackedPieces> pieces;
   std::vector<std::int64_t> counts;
+  std::vector<char> sent(size * block, 0);
   const Outcome outcome = tried([&] {
     pieces = pack();
-    for (const PackedPieces& some : pieces) counts.push_back(bytes_of(some));
+    for (int rank = 0; rank < size; ++rank) {
+      counts.push_back(bytes_of(pieces[rank]));
+      if (counts[rank] > 0 && counts[rank] <= block - head) write_pieces(pieces[rank], &sent[rank * block + head]);
+    }
   });
   const std::int64_t greatest = outcome.has_failed ? -1 : *std::max_element(counts.begin(), counts.end());
-  std::vector<char> sent(size * block, 0);
   for (int rank = 0; rank < size; ++rank) {
     const BlockHead mine{outcome.has_failed ? 0 : counts[rank], greatest};
     std::memcpy(&sent[rank * block], &mine, sizeof(mine));
-    if (mine.bytes <= 0 || mine.bytes > block - head) continue;
-    write_pieces(pieces[rank], &sent[rank * block + head]);
   }
   const auto blocks = allocate<Array<char, HostMemory>>(label, size * block);
   ranks.exchange_blocks(sent.data(), blocks.data(), block);

@@ -208,6 +208,14 @@ Grid::Grid(const std::array<Id, 3>& points, const Array<std::uint64_t, HostMemor
   if (inside.extent(0) != words * rows)
     throw Error("the points of a grid have " + std::to_string(inside.extent(0)) + " words of bits, not " +
                 std::to_string(words * rows));
+  if (nx % 64 != 0) {
+    const auto end = static_cast<Offset>(rows);
+    const Offset wrong = reduce_min("GALE::bits_behind_rows", HostExecutionSpace(), end, end, [&](Offset row) {
+      return inside((row + 1) * words - 1) >> (nx % 64) != 0 ? row : end;
+    });
+    if (wrong != end)
+      throw Error("row " + std::to_string(wrong) + " of a grid has bits behind its " + std::to_string(nx) + " points");
+  }
   const bool is_plane = nz == 1;
   require_ids("rows of points", static_cast<Offset>(rows + 1));
   const std::size_t all = (rows + 1) * words;  // a row behind the last stands for those that aren't there

@@ -72,7 +72,7 @@ Relation to_faces(int dimension, int face_dimension) {
 /// relation to faces is looked up in the tables of simplices; one from faces is such a relation the other way round; EE
 /// and FF are merged from the rows of each simplex's faces; VV and TT come from a sweep.
 Csr<const Id, HostMemory> relation_of(const Mesh& mesh, Relation relation, Ids ids, const SweepOptions& options) {
-  detail::require_threads(options.threads);
+  detail::require_thread_count(options.threads);
   require_relations(relation, mesh.dimension());
   const detail::TrackedViews tracked;  // lasts, also where a sweep's body asks for it
   const ThreadLimit limit(options.threads);
