@@ -1,6 +1,8 @@
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -12,6 +14,7 @@
 #include <gale/algorithms/simplify_field.hpp>
 #include <gale/runtime/make_structure.hpp>
 
+#include "algorithms/fields.hpp"
 #include "distributed/given_parts.hpp"
 #include "support/message_of.hpp"
 
@@ -250,6 +253,35 @@ TEST(Stopping, ends_the_rank_that_is_asked_as_a_process_alone_and_fails_on_other
   }
   EXPECT_EQ(end,
             is_last ? "stopped" : "rank " + std::to_string(ranks.size() - 1) + ": the computation was asked to stop");
+}
+
+TEST(Stopping, leaves_no_rank_waiting_whenever_it_comes) {
+  const Communicator ranks(MPI_COMM_WORLD);
+  const InputMesh& input = mesh_named("holed_grid_9");
+  const GivenPart part = part_of(input, "random", ranks);
+  const DistributedMesh mesh = distribute(ranks, part, "random");
+  const VertexOrder order(mesh, part.values(random_field(input, 3)));
+  const auto value = [&](Id v) { return std::sin(static_cast<double>(mesh.vertex_id(v))); };
+  const bool is_last = ranks.rank() + 1 == ranks.size();
+  for (int i = 0; i < 100; ++i) {
+    StopRequest request;
+    std::thread asks([&] {
+      std::this_thread::sleep_for(std::chrono::microseconds(100 * i));
+      if (is_last) request.stop();
+    });
+    std::int64_t ended = 0;
+    try {
+      const StopScope stoppable(&request);
+      simplify_field(order, value, 0.1);
+      ended = 1;
+    } catch (const Stopped&) {
+      EXPECT_TRUE(is_last);
+    } catch (const SharedError& error) {
+      EXPECT_FALSE(is_last) << error.what();
+    }
+    asks.join();
+    EXPECT_EQ(ranks.sum(ended) % ranks.size(), 0) << "some ranks alone have ended";
+  }
 }
 
 TEST(PartsOfMeshes, are_refused_by_what_needs_the_whole) {
