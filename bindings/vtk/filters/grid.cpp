@@ -73,6 +73,7 @@ bool has_tetrahedra_alone(vtkUnstructuredGrid* grid) {
   return std::all_of(all, all + count, [](unsigned char type) { return type == VTK_TETRA; });
 }
 
+/// Throws gale::Error where no cell has two or three dimensions.
 void require_dimension(const std::vector<std::uint8_t>& types) {
   const CellType* const first = find_cell_type(types.front());
   if (first == nullptr || highest_dimension(view_of(types.data(), static_cast<vtkIdType>(types.size()))) >= 2) return;

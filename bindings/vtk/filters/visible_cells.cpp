@@ -29,6 +29,7 @@ std::vector<bool> marked(Attributes* attributes, int bits) {
   return rows;
 }
 
+/// Throws gale::Error for a cell of a point that there is not.
 void require_point(vtkIdType point, vtkIdType cell, vtkDataSet* mesh) {
   if (point >= 0 && point < mesh->GetNumberOfPoints()) return;
   throw Error("cell " + std::to_string(cell) + " names point " + std::to_string(point) + " of " +
@@ -49,6 +50,7 @@ void for_each_point(int type, vtkIdList* entries, const Use& use) {
   }
 }
 
+/// Copies these rows of all arrays, one behind the other.
 void copy_rows(Attributes* from, vtkIdList* rows, Attributes* to) {
   to->CopyAllOn();  // ids as well
   to->CopyAllocate(from, rows->GetNumberOfIds());
