@@ -41,10 +41,27 @@ double words_per_vertex(RelationSet relations) {
   return sum;
 }
 
+namespace {
+
+struct Counts {
+  int threads_per_segment, threads_per_block, blocks_per_request;
+};
+
+Counts counts_of(const StructureOptions& options) {
+  return {given_or(options.threads_per_segment, 128, "threads per segment"),
+          given_or(options.threads_per_block, 256, "threads per block"),
+          given_or(options.blocks_per_request, 16, "blocks per request")};
+}
+
+}  // namespace
+
+void require_counts(const StructureOptions& options) {
+  counts_of(options);
+  cores(options);
+}
+
 Sizes sizes_for(const Mesh& mesh, const StructureOptions& options, int queues) {
-  const int threads_per_segment = given_or(options.threads_per_segment, 128, "threads per segment");
-  const int threads_per_block = given_or(options.threads_per_block, 256, "threads per block");
-  const int blocks = given_or(options.blocks_per_request, 16, "blocks per request");
+  const auto [threads_per_segment, threads_per_block, blocks] = counts_of(options);
   const std::size_t host = host_memory(options) / queues;
   // Three batches are on the device at a time.
   const std::size_t device = options.device_memory == 0 ? largest_batch : options.device_memory / queues / 3;

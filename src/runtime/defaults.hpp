@@ -28,6 +28,9 @@ struct Sizes {
   int threads_per_segment = 0;
 };
 
+/// Throws gale::Error for an option below 0, whichever way looks at it.
+void require_counts(const StructureOptions& options);
+
 /// Finds these for each of `queues` queues. Throws gale::Error for an option below 0.
 Sizes sizes_for(const Mesh& mesh, const StructureOptions& options, int queues);
 

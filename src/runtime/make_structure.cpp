@@ -53,6 +53,7 @@ std::optional<Way> way_named(const std::string& name) {
 std::unique_ptr<Structure> make_structure(const Mesh& mesh, RelationSet wanted, const StructureOptions& options) {
   detail::require_relations(wanted);
   require_relations(wanted, mesh.dimension());
+  detail::require_counts(options);
   try {
     return make(mesh, wanted, options, options.way);
   } catch (const OutOfMemory& error) {

@@ -183,13 +183,19 @@ TEST(Helpers, are_as_many_as_cores_without_a_consumer) {
   }
 }
 
-TEST(Helpers, need_a_number_of_cores) {
+TEST(Ways, refuse_options_below_0) {
   const HelpedMesh fixture;
-  StructureOptions options;
-  options.way = Way::helpers;
-  options.cores = -1;
-  EXPECT_EQ(message_of([&] { make_structure(fixture.mesh, Relation::VV, options); }),
-            "cores must be at least 1, not -1");
+  for (const Way way : {Way::helpers, Way::inline_, Way::explicit_}) {
+    const auto message = [&](StructureOptions options) {
+      options.way = way;
+      return message_of([&] { make_structure(fixture.mesh, Relation::VV, options); });
+    };
+    StructureOptions cores, blocks;
+    cores.cores = -1;
+    EXPECT_EQ(message(cores), "cores must be at least 1, not -1");
+    blocks.blocks_per_request = -3;
+    EXPECT_EQ(message(blocks), "blocks per request must be at least 1, not -3");
+  }
 }
 
 }  // namespace gale::test

@@ -41,11 +41,8 @@ class IdleCores {
 /// Way::helpers: inline; and in a sweep, helpers on the cores that it leaves idle compute ahead of the consumers.
 class HelpedStructure : public InlineStructure {
  public:
-  /// Throws gale::Error for a number of cores below 0.
   HelpedStructure(const Mesh& mesh, RelationSet relations, const StructureOptions& options)
-      : InlineStructure(mesh, relations, Way::helpers), options_(options) {
-    cores(options);  // refuses what isn't a number of cores
-  }
+      : InlineStructure(mesh, relations, Way::helpers), options_(options) {}
 
  protected:
   std::unique_ptr<Sweep> begin_sweep(RelationSet wanted, int consumers, const SegmentBody& body) override {
