@@ -42,9 +42,10 @@ struct StayingExtrema {
 /// vertices take the saddle's value, and come right after it in the order, each with one of them, or the saddle, before
 /// it; maxima likewise, downwards. All else stays as it is. Minima and maxima in turns until none is left that should
 /// go: filling up one branch may make another extremum less persistent, and flat parts may have extrema in their order.
-/// So the persistence diagram of the result has no pairs of extrema below the threshold, and to simplify it again
-/// changes nothing (compare Lukasczyk, Garth, Maciejewski and Tierny, "Localized Topological Simplification of Scalar
-/// Data", 2020).
+/// So to simplify the result again changes nothing, and its persistence diagram has pairs of the extrema that stay
+/// alone: of minima none below the threshold; of maxima there may be some, as the outside of the mesh, which no branch
+/// ends in, takes their part where they come to the boundary (compare Lukasczyk, Garth, Maciejewski and Tierny,
+/// "Localized Topological Simplification of Scalar Data", 2020).
 ///
 /// `value(v)` is the field at an input vertex. One sweep of VV and link (of a grid that computes, of its keys alone),
 /// and these rows of what changes once more; branches in parallel. Memory beside the result: 40 bytes a vertex, and 80
