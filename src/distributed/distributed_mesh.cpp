@@ -12,6 +12,7 @@
 #include <gale/distributed/sharing/local_mesh.hpp>
 #include <gale/distributed/sharing/local_vertices.hpp>
 #include <gale/distributed/sharing/own_octree.hpp>
+#include <gale/distributed/sharing/valid_part.hpp>
 #include <gale/distributed/sharing/vertex_directory.hpp>
 #include <gale/mesh/exchange/exchange_plan.hpp>
 
@@ -36,65 +37,6 @@ class OnDemand {
 }  // namespace detail
 
 namespace {
-
-/// Sums of an id and a count, and of two ids, are ids.
-constexpr GlobalId greatest_id = (GlobalId(1) << 62) - 1;
-
-template <class Ids>
-void require_global_ids(const Ids& ids) {
-  const Offset count = ids.extent(0);
-  const Offset bad = reduce_min("GALE::bad_id", HostExecutionSpace(), count, count,
-                                [&](Offset i) { return ids(i) < 0 || ids(i) > greatest_id ? i : count; });
-  if (bad == count) return;
-  const std::string bounds = ids(bad) < 0 ? "0 or more" : "at most " + std::to_string(greatest_id);
-  throw Error("ids are " + bounds + ", not " + std::to_string(ids(bad)));
-}
-
-/// The interval of a part's vertices if they are one, in order. Throws gale::Error for an id that is none.
-std::optional<detail::IdInterval> valid_interval(const Array<const GlobalId, HostMemory>& ids) {
-  const auto interval = detail::counted_interval(ids);
-  const auto is_id = [&](Offset i) { return ids(i) >= 0 && ids(i) <= greatest_id; };
-  const Offset count = ids.extent(0);
-  if (!interval || (count > 0 && !(is_id(0) && is_id(count - 1)))) require_global_ids(ids);
-  return interval;
-}
-
-/// Throws gale::Error for what one rank can see is wrong with its part but for vertices.
-template <class Index>
-void validate(const MeshPart<Index>& part) {
-  require_ids("vertices", static_cast<Offset>(part.vertex_ids.extent(0)));
-  require_ids("cells", static_cast<Offset>(part.cells.extent(0)));
-  const std::size_t corners = part.cells.extent(1);
-  if (part.cells.extent(0) > 0 && corners != 3 && corners != 4)
-    throw Error("cells have 3 vertices or 4, not " + std::to_string(corners));
-  require_global_ids(part.cell_ids);
-}
-
-/// How many vertices the cells of all ranks have. Collective; throws SharedError where they differ, for cells that have
-/// ids of their own on some ranks alone, and for no cells.
-template <class Index>
-int corners_of_all(const Communicator& ranks, const MeshPart<Index>& part) {
-  const bool has_cells = part.cells.extent(0) > 0, has_ids = part.cell_ids.extent(0) > 0;
-  const auto corners = ranks.all(has_cells ? static_cast<std::int64_t>(part.cells.extent(1)) : 0);
-  const auto ids = ranks.all(has_cells ? std::int64_t(has_ids) : -1);
-  const auto first_with = [](const std::vector<std::int64_t>& all, std::int64_t one) -> std::optional<std::int64_t> {
-    const auto at = std::find(all.begin(), all.end(), one);
-    if (at == all.end()) return std::nullopt;
-    return at - all.begin();
-  };
-  const auto triangles = first_with(corners, 3), tetrahedra = first_with(corners, 4);
-  if (!triangles && !tetrahedra) throw SharedError("the mesh has no cells");
-  if (triangles && tetrahedra) {
-    throw SharedError("cells are of one dimension on all ranks: rank " + std::to_string(*triangles) +
-                      " has triangles, rank " + std::to_string(*tetrahedra) + " tetrahedra");
-  }
-  const auto given = first_with(ids, 1), counted = first_with(ids, 0);
-  if (given && counted) {
-    throw SharedError("cells have ids on all ranks or on none: rank " + std::to_string(*given) +
-                      " has ids of cells, rank " + std::to_string(*counted) + " has none");
-  }
-  return triangles ? 3 : 4;
-}
 
 /// Who hands over and owns which vertex. `ids`: the interval of those that this rank hands over, if they are one.
 template <class Index>
@@ -265,10 +207,10 @@ Mesh DistributedMesh::Sharing::deal(MeshPart<Index> part, const PartitionOptions
                                     const std::shared_ptr<const Exchange>& self) {
   std::optional<detail::IdInterval> ids;
   detail::together(ranks_, [&] {
-    validate(part);
-    ids = valid_interval(part.vertex_ids);
+    detail::require_part(part);
+    ids = detail::valid_interval(part.vertex_ids);
   });
-  const int corners_of_each = corners_of_all(ranks_, part);
+  const int corners_of_each = detail::corners_of_all(ranks_, part);
   const Offset most_local = ranks_.least(std::int64_t(options.most_local));
   if (part.cells.extent(0) == 0) part.cells = CellRows<Index>(nullptr, 0, corners_of_each);
   std::optional<detail::VertexDirectory> directory = directory_of(ranks_, part, ids, options.repartition);

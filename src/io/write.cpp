@@ -32,28 +32,29 @@ std::size_t points_of(const Dataset::Positions& points) {
 
 const char* cells_of(const Dataset& mesh) { return mesh.dimension() == 2 ? "triangles" : "tetrahedra"; }
 
+/// Throws Error unless so many entries of cells are points.
+void check_entries(std::size_t points, const Id* entries, Offset count) {
+  const Offset wrong = reduce_min("GALE::check_cells", HostExecutionSpace(), count, count, [&](Offset k) {
+    return static_cast<std::size_t>(entries[k]) < points ? count : k;  // one below 0 becomes a huge one
+  });
+  if (wrong != count) refuse("there is no point ", entries[wrong], " among ", points);
+}
+
 void check_cells(std::size_t points, const Surface::Cells& cells) {
   const auto end = static_cast<std::int64_t>(cells.points.size());
   if (cells.begin.empty() || cells.begin.front() != 0 || cells.begin.back() != end ||
       !std::is_sorted(cells.begin.begin(), cells.begin.end())) {
     throw Error("its cells don't begin one after the other");
   }
-  const std::int64_t wrong = reduce_min("GALE::check_cells", HostExecutionSpace(), end, end, [&](std::int64_t k) {
-    return static_cast<std::size_t>(cells.points[k]) < points ? end : k;  // one below 0 becomes a huge one
-  });
-  if (wrong != end) refuse("there is no point ", cells.points[wrong], " among ", points);
+  check_entries(points, cells.points.data(), end);
 }
 
 /// Throws Error for a cell of a mesh that has a corner which is none of its points.
 void check_corners(const Dataset& mesh) {
   if (mesh.grid) return;
-  const bool is_flat = mesh.dimension() == 2;
-  const Id* const corners = is_flat ? mesh.triangles.data() : mesh.tetrahedra.data();
-  const auto end = static_cast<Offset>(mesh.cells() * (is_flat ? 3 : 4));
   const std::size_t points = points_of(mesh.points);
-  const Offset wrong = reduce_min("GALE::check_corners", HostExecutionSpace(), end, end,
-                                  [&](Offset k) { return static_cast<std::size_t>(corners[k]) < points ? end : k; });
-  if (wrong != end) refuse("there is no point ", corners[wrong], " among ", points);
+  check_entries(points, mesh.tetrahedra.data(), static_cast<Offset>(mesh.tetrahedra.size()));
+  check_entries(points, mesh.triangles.data(), static_cast<Offset>(mesh.triangles.size()));
 }
 
 /// Throws Error unless the file's extension is one that is written with any of these bits. `what` it is.

@@ -43,11 +43,11 @@ double words_per_vertex(RelationSet relations) {
 
 namespace {
 
-struct Counts {
+struct GivenCounts {
   int threads_per_segment, threads_per_block, blocks_per_request;
 };
 
-Counts counts_of(const StructureOptions& options) {
+GivenCounts counts_of(const StructureOptions& options) {
   return {given_or(options.threads_per_segment, 128, "threads per segment"),
           given_or(options.threads_per_block, 256, "threads per block"),
           given_or(options.blocks_per_request, 16, "blocks per request")};

@@ -1,20 +1,8 @@
-#include <chrono>
 #include <cmath>
 #include <limits>
-#include <numeric>
-#include <thread>
 
 #include <gtest/gtest.h>
 
-#include <gale/algorithms/critical_points.hpp>
-#include <gale/algorithms/discrete_gradient.hpp>
-#include <gale/algorithms/merge_tree.hpp>
-#include <gale/algorithms/morse_smale.hpp>
-#include <gale/algorithms/persistence.hpp>
-#include <gale/algorithms/simplify_field.hpp>
-#include <gale/runtime/make_structure.hpp>
-
-#include "algorithms/fields.hpp"
 #include "distributed/given_parts.hpp"
 #include "support/message_of.hpp"
 
@@ -199,136 +187,6 @@ TEST(WrongParts, are_held_to_the_least_of_all_limits) {
   if (ranks.rank() + 1 == ranks.size()) options.most_local = 1;
   EXPECT_NE(message_of([&] { DistributedMesh(ranks, part.views(), options); }).find("but at most 1 fit"),
             std::string::npos);
-}
-
-TEST(WrongOptions, of_one_rank_end_all_alike) {
-  const Communicator ranks(MPI_COMM_WORLD);
-  const InputMesh& input = mesh_named("holed_grid_9");
-  const GivenPart part = part_of(input, "random", ranks);
-  const DistributedMesh mesh = distribute(ranks, part, "random");
-  const VertexOrder order(mesh, part.values(std::vector<float>(input.vertices(), 1.0f)));
-  const DiscreteGradient gradient = find_discrete_gradient(order);
-  const bool is_last = ranks.rank() + 1 == ranks.size();
-  const std::string last = ranks.size() == 1 ? "" : "rank " + std::to_string(ranks.size() - 1) + ": ";
-  const auto one = [](Id) { return 1.0; };
-  MergeTreeOptions tree;
-  tree.threshold = 1;
-  if (!is_last) tree.value = one;
-  EXPECT_EQ(message_of([&] { find_merge_tree(order, Tree::join, tree); }),
-            last + "a tree simplified by persistence needs the field's values");
-  tree.value = one;
-  tree.threshold = is_last ? -1 : 1;
-  EXPECT_EQ(message_of([&] { find_merge_tree(order, Tree::join, tree); }),
-            last + "the persistence -1 is not 0 or more");
-  EXPECT_EQ(message_of([&] { simplify_field(order, one, is_last ? -1 : 1); }),
-            last + "the persistence -1 is not 0 or more");
-  ComputeOptions many;
-  many.threads = is_last ? 0 : 1;
-  EXPECT_EQ(message_of([&] { find_critical_points(order, many); }), last + "threads is 0, not 1 to 1024");
-  EXPECT_EQ(message_of([&] { find_morse_smale_complex(gradient, {}, many); }), last + "threads is 0, not 1 to 1024");
-  EXPECT_EQ(message_of([&] { gather_persistence_pairs(gradient, many); }), last + "threads is 0, not 1 to 1024");
-  if (have_device) return;
-  ComputeOptions place;
-  if (is_last) place.consumers = ConsumerPlace::device;
-  EXPECT_EQ(message_of([&] { find_discrete_gradient(order, place); }), last + "this gale has no device for consumers");
-}
-
-TEST(Stopping, ends_the_rank_that_is_asked_as_a_process_alone_and_fails_on_others) {
-  const Communicator ranks(MPI_COMM_WORLD);
-  const InputMesh& input = mesh_named("holed_grid_9");
-  const GivenPart part = part_of(input, "random", ranks);
-  const DistributedMesh mesh = distribute(ranks, part, "random");
-  const VertexOrder order(mesh, part.values(std::vector<float>(input.vertices(), 1.0f)));
-  const bool is_last = ranks.rank() + 1 == ranks.size();
-  StopRequest request;
-  if (is_last) request.stop();
-  const StopScope stoppable(&request);
-  std::string end = "none";
-  try {
-    find_discrete_gradient(order);
-  } catch (const Stopped&) {
-    end = "stopped";
-  } catch (const SharedError& error) {
-    end = error.what();
-  }
-  EXPECT_EQ(end,
-            is_last ? "stopped" : "rank " + std::to_string(ranks.size() - 1) + ": the computation was asked to stop");
-}
-
-TEST(Stopping, leaves_no_rank_waiting_whenever_it_comes) {
-  const Communicator ranks(MPI_COMM_WORLD);
-  const InputMesh& input = mesh_named("holed_grid_9");
-  const GivenPart part = part_of(input, "random", ranks);
-  const DistributedMesh mesh = distribute(ranks, part, "random");
-  const VertexOrder order(mesh, part.values(random_field(input, 3)));
-  const auto value = [&](Id v) { return std::sin(static_cast<double>(mesh.vertex_id(v))); };
-  const bool is_last = ranks.rank() + 1 == ranks.size();
-  for (int i = 0; i < 100; ++i) {
-    StopRequest request;
-    std::thread asks([&] {
-      std::this_thread::sleep_for(std::chrono::microseconds(100 * i));
-      if (is_last) request.stop();
-    });
-    std::int64_t ended = 0;
-    try {
-      const StopScope stoppable(&request);
-      simplify_field(order, value, 0.1);
-      ended = 1;
-    } catch (const Stopped&) {
-      EXPECT_TRUE(is_last);
-    } catch (const SharedError& error) {
-      EXPECT_FALSE(is_last) << error.what();
-    }
-    asks.join();
-    EXPECT_EQ(ranks.sum(ended) % ranks.size(), 0) << "some ranks alone have ended";
-  }
-}
-
-TEST(PartsOfMeshes, are_refused_by_what_needs_the_whole) {
-  const Communicator ranks(MPI_COMM_WORLD);
-  const InputMesh& input = mesh_named("holed_grid_9");
-  const GivenPart part = part_of(input, "random", ranks);
-  const DistributedMesh mesh = distribute(ranks, part, "random");
-  if (ranks.size() == 1) return;
-  const std::string which =
-      " can't be found of one rank's part of a mesh: it lies on " + std::to_string(ranks.size()) + " ranks";
-  const VertexOrder order(mesh, part.values(std::vector<float>(input.vertices(), 1.0f)));
-  const DiscreteGradient gradient = find_discrete_gradient(order);
-  EXPECT_EQ(message_of([&] { find_persistence_pairs(gradient); }),
-            "persistence pairs" + which + ", which gather_gradient() brings together");
-}
-
-TEST(PartsOfMeshes, say_what_is_wrong_with_fields_to_simplify) {
-  const Communicator ranks(MPI_COMM_WORLD);
-  const InputMesh& input = mesh_named("holed_grid_9");
-  const GivenPart part = part_of(input, "random", ranks);
-  const DistributedMesh mesh = distribute(ranks, part, "random");
-  std::vector<float> heights(input.vertices());
-  std::iota(heights.begin(), heights.end(), 0.0f);
-  const VertexOrder order(mesh, part.values(heights));
-  if (ranks.size() == 1) return;
-  const auto nan = [](Id) { return std::nan(""); };
-  EXPECT_NE(message_of([&] { simplify_field(order, nan, 1); }).find("has no field value"), std::string::npos);
-  StayingExtrema outside, regular;
-  if (ranks.rank() == 1) outside.minima = {mesh.vertices()};
-  EXPECT_NE(message_of([&] { simplify_field(order, outside); }).find("rank 1: vertex"), std::string::npos);
-  // The highest is no minimum; its global id is said.
-  const GlobalId top = vertex_name(input.vertices() - 1);
-  const Id here = mesh.vertex_of(top);
-  if (here != no_id) regular.minima = {here};
-  EXPECT_EQ(message_of([&] { simplify_field(order, regular); }),
-            "rank 0: vertex " + std::to_string(top) + ", which is to stay, is no minimum of the field");
-}
-
-TEST(DistributedAlgorithms, fail_on_all_ranks_where_one_lacks_what_it_reads) {
-  const Communicator ranks(MPI_COMM_WORLD);
-  const InputMesh& input = mesh_named("holed_grid_9");
-  const GivenPart part = part_of(input, "blocks", ranks);
-  const DistributedMesh mesh = distribute(ranks, part, "blocks");
-  const VertexOrder order(mesh, part.values(std::vector<int>(input.vertices(), 1)));
-  const bool is_last = ranks.rank() + 1 == ranks.size();
-  const auto structure = make_structure(mesh, is_last ? RelationSet(Relation::VV) : discrete_gradient_relations);
-  EXPECT_NE(message_of([&] { find_discrete_gradient(*structure, order); }), "no error");
 }
 
 }  // namespace gale::test

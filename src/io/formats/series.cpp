@@ -53,7 +53,7 @@ std::vector<Step> steps_of_pvd(const InputFile& input, const ReadOptions& option
   for (const XmlElement* const one : file.root.require("Collection").all("DataSet")) {
     const std::string text = one->attribute("timestep", "0");
     double time = 0;
-    if (!detail::parse(detail::trimmed(text), time)) damaged("its timestep '", text, "' is no number");
+    if (!parse(trimmed(text), time)) damaged("its timestep '", text, "' is no number");
     steps.add(time, one->attribute("file"));
   }
   return steps.take();
